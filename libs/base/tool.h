@@ -1,0 +1,67 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/provenance.h"
+#include "base/report.h"
+
+namespace vsgl {
+
+// The options that every tool has.
+struct CommonOptions {
+  std::string config;           // JSON file: keys are the long flags in snake_case; flags override it
+  std::string device = "auto";  // auto | cpu | gpu | part of a device's name
+  int threads = 0;              // 0: all cores
+  std::uint64_t seed = 0;
+  bool json = false, dry_run = false, overwrite = false, quiet = false, no_skip = false;
+  int verbose = 0;
+  std::string progress = "auto";  // auto | never
+};
+
+// The frame of an executable: declares the common options, parses, merges --config, answers --help, --version,
+// --dry-run, prints the Report, turns errors into "tool: error E3006: ..." on stderr and the exit status.
+//
+//   int main(int argc, char** argv) {
+//     vsgl::Tool tool("vsgl-gen", "samples and filters lights from a reflective shadow map");
+//     std::filesystem::path rsm, output;
+//     tool.input("--rsm", rsm, "RSM to sample")->required();
+//     tool.output("-o,--output", output, "lights to write")->required();
+//     int count = 1024;
+//     tool.app().add_option("--count", count, "number of lights")->check(CLI::Range(1, 1048576))->capture_default_str();
+//     return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {
+//       ...; write(outputs.add(output)); return vsgl::Exit::ok;
+//     });
+//   }
+class Tool {
+ public:
+  Tool(std::string name, std::string summary);
+
+  CLI::App& app() { return app_; }
+  const CommonOptions& common() const { return common_; }
+
+  // An input file: hashed into the provenance (only its name enters the command line). Must exist when run() starts.
+  CLI::Option* input(const std::string& flags, std::filesystem::path& path, const std::string& help);
+  // An output file: not part of the provenance; checked against --overwrite and for a writable folder before work begins.
+  CLI::Option* output(const std::string& flags, std::filesystem::path& path, const std::string& help);
+
+  // Valid inside run()'s body. Inputs are hashed on first use.
+  Provenance provenance() const;
+
+  // `body` writes to the temporary paths of `outputs`; they are committed when it returns (any Exit). Never throws.
+  int run(int argc, char** argv, const std::function<Exit(Report&, OutputSet&)>& body);
+
+ private:
+  std::string name_;
+  CLI::App app_;
+  CommonOptions common_;
+  std::vector<std::pair<CLI::Option*, std::filesystem::path*>> inputs_, outputs_;
+};
+
+}  // namespace vsgl

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "gpu/device.h"
+
+namespace vsgl::gpu {
+
+// A device buffer usable as storage, uniform (up to the device's limit), uniform texel, vertex, index and transfer buffer.
+// Mapped where the memory is host-visible (always on lavapipe), staged otherwise. Size 0 is rounded up to 16 bytes.
+class Buffer {
+ public:
+  Buffer(Device& device, std::size_t bytes);
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+
+  template <class T>
+  static Buffer from(Device& device, std::span<const T> values) {
+    Buffer buffer(device, values.size_bytes());
+    buffer.write(0, std::as_bytes(values));
+    return buffer;
+  }
+  template <class T>
+  static Buffer from(Device& device, const std::vector<T>& values) {
+    return from(device, std::span<const T>(values));
+  }
+  template <class T>
+  std::vector<T> download(std::size_t count) {
+    std::vector<T> values(count);
+    read(0, std::as_writable_bytes(std::span<T>(values)));
+    return values;
+  }
+
+  void write(std::size_t offset, std::span<const std::byte> bytes);
+  void read(std::size_t offset, std::span<std::byte> bytes);
+  void clear();  // to zero bytes
+
+  VkBuffer handle() const { return buffer_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  Device* device_ = nullptr;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  std::size_t size_ = 0;
+  std::byte* mapped_ = nullptr;
+};
+
+}  // namespace vsgl::gpu
