@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "artifact/light_source.h"
+#include "math/light_source.h"
 #include "artifact/pyramid.h"
 #include "base/provenance.h"
 #include "interop/light.h"
