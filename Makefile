@@ -1,0 +1,62 @@
+# The front door. On a bare Debian 12 machine, `make demo` and `make test` each set up all they need.
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+
+PACKAGES := g++ cmake ninja-build ccache pkg-config git ca-certificates \
+  libopenexr-dev libopenimageio-dev openimageio-tools libassimp-dev libcli11-dev nlohmann-json3-dev libssl-dev \
+  libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools \
+  libgtest-dev libbenchmark-dev glmark2-data assimp-testmodels \
+  python3 python3-jsonschema python3-numpy help2man
+LINT_PACKAGES := clang-format clang-tidy
+
+PRESET ?= release
+BUILD := build/$(PRESET)
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+SOURCES = $(shell git ls-files 'apps/*.cpp' 'libs/*.cpp' 'libs/*.h' 'tests/*.cpp' 'tests/*.h' 'shaders/interop/*.h')
+
+.PHONY: help setup setup-lint build demo test bench asan tidy format format-check install golden-update clean
+
+help: ## show this list
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
+
+setup: ## install the Debian packages that are missing
+	@configs/workflow/setup.sh $(PACKAGES)
+
+setup-lint:
+	@configs/workflow/setup.sh $(LINT_PACKAGES)
+
+build: setup ## configure and build everything
+	@cmake --preset $(PRESET) -Wno-dev $(if $(wildcard $(BUILD)/CMakeCache.txt),> /dev/null)
+	@cmake --build --preset $(PRESET) -j $(JOBS)
+
+demo: build ## run the chain on the demo scenes into out/demo, print the stages
+	@python3 configs/workflow/demo.py --bin $(BUILD)/bin --output out/demo
+
+test: build ## build and run every test
+	@cd $(BUILD) && VSGL_VALIDATION=1 ctest --output-on-failure --no-tests=error -j $(JOBS)
+
+bench: build ## time the shading kernel against native code, and the demo chain stage by stage
+	@python3 configs/workflow/bench.py --bin $(BUILD)/bin --output out/bench
+
+asan: ## the test run under AddressSanitizer and UndefinedBehaviorSanitizer
+	@$(MAKE) --no-print-directory build PRESET=asan
+	@cd build/asan && VSGL_VALIDATION=1 ctest --output-on-failure --no-tests=error -j $(JOBS) -LE perf
+
+tidy: setup setup-lint ## clang-tidy over the whole tree
+	@$(MAKE) --no-print-directory build PRESET=tidy
+
+format: setup-lint ## clang-format the tree in place
+	@clang-format -i $(SOURCES)
+
+format-check: setup-lint ## fail where clang-format would change something
+	@clang-format --dry-run -Werror $(SOURCES)
+
+install: build ## install tools, man pages and completion below PREFIX (default /usr/local)
+	@cmake --install $(BUILD) --prefix $(PREFIX)
+
+golden-update: build ## write the golden images anew from this build; look at the differences before you commit
+	@python3 tests/golden/golden.py --bin $(BUILD)/bin --update
+
+clean: ## remove build and output folders
+	@rm -rf build out
