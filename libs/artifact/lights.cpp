@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "artifact/artifact.h"
+#include "artifact/fields.h"
+#include "artifact/header.h"
+
+namespace vsgl {
+
+using namespace artifact;
+
+namespace {
+
+using interop::Light;
+constexpr Field kFields[] = {
+    {"position", "XYZ", offsetof(Light, position)},
+    {"variance", "V", offsetof(Light, variance), Range::non_negative},
+    {"power_diffuse", "RGB", offsetof(Light, power_diffuse), Range::non_negative},
+    {"axis_diffuse", "XYZ", offsetof(Light, diffuse_axis)},
+    {"sharpness_diffuse", "V", offsetof(Light, diffuse_sharpness), Range::sharpness},
+    {"power_specular", "RGB", offsetof(Light, power_specular), Range::non_negative, true},
+    {"axis_specular", "XYZ", offsetof(Light, specular_axis), Range::any, true},
+    {"sharpness_specular", "V", offsetof(Light, specular_sharpness), Range::sharpness, true},
+    {"alpha", "V", offsetof(Light, alpha), Range::unit_interval, true},
+    {"ndf", "I", offsetof(Light, ndf), Range::ndf, true},
+    {"normal", "XYZ", offsetof(Light, normal)},
+    {"normal_deficit", "V", offsetof(Light, normal_deficit), Range::unit_interval},
+    {"shading_normal", "XYZ", offsetof(Light, shading_normal)},
+    {"incident", "XYZ", offsetof(Light, incident)},
+    {"origin", "XYZ", offsetof(Light, origin)},
+    {"level", "V", offsetof(Light, level), Range::non_negative},
+    {"texel", "I", offsetof(Light, texel)},
+    {"layer", "I", offsetof(Light, layer)},
+};
+
+// A lobe without power has no axis.
+void check_directions(const ExrFile& file, const ExrPart& part, const std::vector<Light>& lights) {
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Light& light = lights[i];
+    check_direction(file, part, "axis_diffuse", i, light.diffuse_axis, Direction::unit_or_zero);
+    check_direction(file, part, "axis_specular", i, light.specular_axis, Direction::unit_or_zero);
+    check_direction(file, part, "normal", i, light.normal, Direction::unit);
+    check_direction(file, part, "shading_normal", i, light.shading_normal, Direction::unit);
+    check_direction(file, part, "incident", i, light.incident, Direction::unit);
+    if (light.ndf != interop::NDF_NONE && light.alpha < interop::ALPHA_MIN)
+      fail_at(file, part, "alpha.V", i, std::to_string(light.alpha) + " is not 1e-3..1");
+  }
+}
+
+}  // namespace
+
+bool Lights::has_specular() const {
+  return std::any_of(lights.begin(), lights.end(),
+                     [](const Light& light) { return light.ndf != interop::NDF_NONE; });
+}
+
+void write(const std::filesystem::path& path, const Lights& lights, const Provenance& provenance) {
+  ExrPart part = make_part("", "lights", provenance);
+  part.attributes["anchor"] = to_array(lights.anchor);
+  part.attributes["scene_radius"] = lights.scene_radius;
+  part.attributes["lights.method"] = lights.method;
+  part.attributes["lights.requested"] = lights.requested;
+  part.attributes["lights.count"] = static_cast<int>(lights.lights.size());
+  part.compression =
+      ExrCompression::zip;  // 16 of these short rows a chunk: as fast as one uncompressed row a chunk
+  const std::vector<Light> none(1);  // an EXR has at least one row
+  const std::vector<Light>& rows = lights.lights.empty() ? none : lights.lights;
+  part.levels = {
+      pack(kFields, Structs(std::span(rows)), 1, static_cast<int>(rows.size()), lights.has_specular())};
+  write_parts(path, {std::move(part)});
+}
+
+Lights read_lights(const std::filesystem::path& path) {
+  const ExrFile file = read_artifact(path, "lights");
+  const ExrPart& part = only_part(file);
+  Lights out;
+  out.method = string_attribute(file, part, "lights.method");
+  out.anchor = finite_vec3(file, part, "anchor");
+  out.scene_radius = double_in(file, part, "scene_radius", 0, std::numeric_limits<double>::max());
+  out.requested = int_in(file, part, "lights.requested", 0, std::numeric_limits<int>::max());
+  const int count = int_in(file, part, "lights.count", 0, std::numeric_limits<int>::max());
+  const bool with_specular = has_specular_channels(kFields, part);
+  const int rows = std::max(1, count);
+  Light blank{};
+  blank.alpha = 1;
+  out.lights.assign(static_cast<std::size_t>(part.height()), blank);
+  unpack(kFields, Structs(std::span(out.lights)), file, part, 0, 1, rows, with_specular);
+  out.lights.resize(static_cast<std::size_t>(count));
+  check_directions(file, part, out.lights);
+  return out;
+}
+
+}  // namespace vsgl
