@@ -6,8 +6,9 @@
 
 namespace vsgl {
 
-// The outputs of one run, written whole or not at all: each is written to a temporary file in the same folder;
-// commit() flushes all to disk and renames them. Destroyed without commit(), nothing is left and no old file is harmed.
+// The outputs of one run, written whole or not at all: each is written to a temporary file in the same
+// folder; commit() flushes all to disk and renames them. Destroyed without commit(), nothing is left and no
+// old file is harmed.
 class OutputSet {
  public:
   // With `overwrite` false, add() throws output_exists when the target is there already.
@@ -16,17 +17,28 @@ class OutputSet {
   OutputSet(const OutputSet&) = delete;
   OutputSet& operator=(const OutputSet&) = delete;
 
-  // Announces an output; returns the path of the temporary file to write (same extension). Throws write_failed when the
-  // folder does not exist or cannot be written.
+  // Announces an output; returns the path of the temporary file to write (same extension). Throws
+  // write_failed when the folder does not exist or cannot be written, or when the target is there and is no
+  // regular file.
   std::filesystem::path add(const std::filesystem::path& target);
-  // fsync and rename all. Throws write_failed; then every temporary file is removed.
+  // fsync and rename all. Throws write_failed; then every temporary file is removed. An output that was
+  // announced and left empty is an internal error.
   void commit();
+  // File names of all outputs, in the order of add().
+  std::vector<std::string> names() const;
+
+  // The checks of add(), without creating anything.
+  static void check(const std::filesystem::path& target, bool overwrite);
+  // From now on SIGINT, SIGTERM and SIGHUP remove every temporary file of the process and end it with status
+  // 128 + signal.
+  static void remove_on_signals();
 
  private:
   struct Entry {
     std::filesystem::path target, temporary;
   };
   bool overwrite_;
+  bool committed_ = false;
   std::vector<Entry> entries_;
 };
 

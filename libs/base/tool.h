@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,7 +27,8 @@ struct CommonOptions {
   std::string progress = "auto";  // auto | never
 };
 
-// The frame of an executable: declares the common options, parses, merges --config, answers --help, --version,
+// The frame of an executable: declares the common options, parses, merges --config, answers --help,
+// --version,
 // --dry-run, prints the Report, turns errors into "tool: error E3006: ..." on stderr and the exit status.
 //
 //   int main(int argc, char** argv) {
@@ -34,8 +37,9 @@ struct CommonOptions {
 //     tool.input("--rsm", rsm, "RSM to sample")->required();
 //     tool.output("-o,--output", output, "lights to write")->required();
 //     int count = 1024;
-//     tool.app().add_option("--count", count, "number of lights")->check(CLI::Range(1, 1048576))->capture_default_str();
-//     return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {
+//     tool.app().add_option("--count", count, "number of lights")->check(CLI::Range(1,
+//     1048576))->capture_default_str(); return tool.run(argc, argv, [&](vsgl::Report& report,
+//     vsgl::OutputSet& outputs) {
 //       ...; write(outputs.add(output)); return vsgl::Exit::ok;
 //     });
 //   }
@@ -46,22 +50,47 @@ class Tool {
   CLI::App& app() { return app_; }
   const CommonOptions& common() const { return common_; }
 
-  // An input file: hashed into the provenance (only its name enters the command line). Must exist when run() starts.
+  // An input file: hashed into the provenance (only its name enters the command line). Must exist when run()
+  // starts.
   CLI::Option* input(const std::string& flags, std::filesystem::path& path, const std::string& help);
-  // An output file: not part of the provenance; checked against --overwrite and for a writable folder before work begins.
+  // An output file: not part of the provenance; checked against --overwrite and for a writable folder before
+  // work begins.
   CLI::Option* output(const std::string& flags, std::filesystem::path& path, const std::string& help);
 
-  // Valid inside run()'s body. Inputs are hashed on first use.
+  // A file that the inputs refer to (meshes and textures of a scene): hashed into the provenance after them.
+  void depends_on(const std::filesystem::path& path);
+
+  // Valid inside run()'s body. Inputs are hashed on first use. Throws file_not_found or read_failed.
   Provenance provenance() const;
 
-  // `body` writes to the temporary paths of `outputs`; they are committed when it returns (any Exit). Never throws.
+  // `body` writes to the temporary paths of `outputs`; they are committed when it returns (any Exit). Never
+  // throws.
+  // --threads is in force (OpenMP) when it starts.
   int run(int argc, char** argv, const std::function<Exit(Report&, OutputSet&)>& body);
 
  private:
+  using PathOption = std::pair<CLI::Option*, std::filesystem::path*>;
+
+  void add_common_options();
+  CLI::Option* add_path(std::vector<PathOption>& list, const std::string& flags, std::filesystem::path& path,
+                        const std::string& help);
+  // False when --help, --version or --dry-run has been answered.
+  bool parse(int argc, char** argv);
+  void check_conflicts() const;
+  void check_files() const;
+  Exit work(const std::function<Exit(Report&, OutputSet&)>& body);
+  void print_result(const Report& report, const OutputSet& outputs) const;
+  std::string command_line() const;
+
   std::string name_;
   CLI::App app_;
   CommonOptions common_;
-  std::vector<std::pair<CLI::Option*, std::filesystem::path*>> inputs_, outputs_;
+  std::vector<PathOption> inputs_, outputs_;
+  std::set<const CLI::Option*> paths_;  // inputs and outputs
+  std::set<const CLI::Option*>
+      neutral_;  // do not shape the result: left out of the command line of the provenance
+  std::vector<std::filesystem::path> dependencies_;
+  mutable std::vector<Provenance::Input> hashed_;
 };
 
 }  // namespace vsgl

@@ -1,0 +1,30 @@
+#pragma once
+
+// Help texts and usage errors of the tools, on top of CLI11. Internal to libs/base.
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace vsgl::usage {
+
+// Help in the form `--count INT in [1 - 1048576] (default: 1024)`: help2man and the completion generator read
+// it.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() { column_width(40); }
+  std::string make_option_opts(const CLI::Option* option) const override;
+};
+
+// Throws unknown_option for the first argument that looks like a long flag and is none, with the nearest
+// known flag. (CLI11 reports a missing required option first, which hides the misspelt one.)
+void check_flags(const CLI::App& app, const std::vector<std::string>& arguments);
+// Throws bad_value for values that CLI11 lets pass: NaN and infinity, empty paths.
+void check_values(const CLI::App& app);
+
+// CLI11's parse error as a numbered one.
+Error translate(const CLI::ParseError& error, const CLI::App& app);
+
+}  // namespace vsgl::usage
