@@ -1,16 +1,17 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "gpu/device.h"
 
 namespace vsgl::gpu {
 
-// A device buffer usable as storage, uniform (up to the device's limit), uniform texel, vertex, index and transfer buffer.
-// Mapped where the memory is host-visible (always on lavapipe), staged otherwise. Size 0 is rounded up to 16 bytes.
+// A device buffer usable as storage, uniform (up to the device's limit), uniform texel and transfer buffer, and by address.
+// Mapped on CPU and integrated devices (always on lavapipe), staged elsewhere. Size 0 is rounded up to 16 bytes; the contents are
+// undefined until written. Throws memory when the device has too little.
 class Buffer {
  public:
   Buffer(Device& device, std::size_t bytes);
@@ -30,6 +31,7 @@ class Buffer {
   }
   template <class T>
   std::vector<T> download(std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
     std::vector<T> values(count);
     read(0, std::as_writable_bytes(std::span<T>(values)));
     return values;
@@ -39,10 +41,14 @@ class Buffer {
   void read(std::size_t offset, std::span<std::byte> bytes);
   void clear();  // to zero bytes
 
+  VkDeviceAddress address() const;  // for GLSL's buffer_reference
   VkBuffer handle() const { return buffer_; }
   std::size_t size() const { return size_; }
 
  private:
+  void release();
+  void require_inside(std::size_t offset, std::size_t bytes) const;
+
   Device* device_ = nullptr;
   VkBuffer buffer_ = VK_NULL_HANDLE;
   VkDeviceMemory memory_ = VK_NULL_HANDLE;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -54,9 +55,10 @@ class Commands {
   void dispatch(const std::string& label, const ComputePipeline& pipeline, const std::vector<BufferRange>& buffers,
                 std::span<const std::byte> push, std::array<std::uint32_t, 3> groups);
   template <class Push>
+    requires(!std::convertible_to<const Push&, std::span<const std::byte>>)
   void dispatch(const std::string& label, const ComputePipeline& pipeline, const std::vector<BufferRange>& buffers,
                 const Push& push, std::array<std::uint32_t, 3> groups) {
-    dispatch(label, pipeline, buffers, std::as_bytes(std::span<const Push, 1>(&push, 1)), groups);
+    dispatch(label, pipeline, buffers, std::span<const std::byte>(std::as_bytes(std::span(&push, 1))), groups);
   }
   // Runs everything recorded so far and waits; may be called again after more dispatches.
   void submit(Report& report);

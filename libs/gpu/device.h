@@ -3,9 +3,8 @@
 #include <vulkan/vulkan.h>
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <string>
-#include <vector>
 
 namespace vsgl::gpu {
 
@@ -25,8 +24,9 @@ struct DeviceInfo {
 };
 
 // Vulkan instance, device, one queue (graphics and compute) and its command pool. Throws no_device when none matches, device_limit
-// when a needed feature (Vulkan 1.2, scalar block layout) is absent. VSGL_VALIDATION=1 in the environment turns the Khronos
-// validation layer on; its messages go to stderr, prefixed "validation:", and make the destructor's process exit non-zero.
+// when a needed feature (Vulkan 1.3, scalar block layout, buffer addresses, push descriptors) is absent. VSGL_VALIDATION=1 in the
+// environment turns the Khronos validation layer on; its messages go to stderr, prefixed "validation:", and the destructor
+// aborts the process if there was any.
 class Device {
  public:
   explicit Device(const DeviceOptions& options);
@@ -40,10 +40,21 @@ class Device {
   VkPhysicalDevice physical() const { return physical_; }
   VkQueue queue() const { return queue_; }
   VkCommandPool command_pool() const { return pool_; }
+  // Nanoseconds per timestamp tick; 0: the queue has no timestamps.
+  double timestamp_period() const { return timestamp_period_; }
+  VkDeviceSize max_allocation() const { return max_allocation_; }
   // Index of a memory type with all of `wanted`, or -1.
   int memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags wanted) const;
+  // Records commands, runs them and waits until their writes are visible to the host.
+  void run(const std::function<void(VkCommandBuffer)>& record);
 
  private:
+  void create_instance(bool validation);
+  void choose_physical(const std::string& wanted);
+  void describe();
+  void create_device();
+  void destroy();
+
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
@@ -52,10 +63,16 @@ class Device {
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};
+  VkDeviceSize max_allocation_ = 0;
+  double timestamp_period_ = 0;
+  std::uint32_t family_ = 0;
   DeviceInfo info_;
 };
 
-// Throws device_lost naming the call.
+// Memory barrier: what was written before is visible to everything after, the host included.
+void full_barrier(VkCommandBuffer commands);
+
+// Throws device_lost naming the call (memory where there was too little).
 void check(VkResult result, const char* call);
 
 }  // namespace vsgl::gpu

@@ -1,0 +1,1 @@
+vsgl_shaders(unit_gpu test/affine.comp.glsl test/gather.comp.glsl)
