@@ -1,0 +1,60 @@
+#include "math/moments.h"
+
+namespace vsgl {
+namespace {
+
+struct MeanSpread {
+  Vec3 mean;
+  double spread = 0;
+};
+
+// weight(k), mean(k), spread(k) of tap k. Two passes: the mean, then spreads about it.
+template <class Weight, class Mean, class Spread>
+MeanSpread merge(std::size_t count, Weight weight, Mean mean, Spread spread) {
+  double total = 0;
+  MeanSpread merged;
+  for (std::size_t k = 0; k < count; ++k) {
+    total += weight(k);
+    merged.mean += weight(k) * mean(k);
+  }
+  if (total <= 0) return {};
+  merged.mean = merged.mean / total;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec3 d = mean(k) - merged.mean;
+    merged.spread += weight(k) / total * (spread(k) + dot(d, d));
+  }
+  return merged;
+}
+
+}  // namespace
+
+DoubleMoments merge_moments(std::span<const DoubleMoments> taps, std::span<const double> shares) {
+  DoubleMoments m;
+  for (std::size_t k = 0; k < taps.size(); ++k) {
+    m.flux += shares[k] * taps[k].flux;
+    m.power_diffuse += shares[k] * taps[k].power_diffuse;
+    m.power_specular += shares[k] * taps[k].power_specular;
+    m.weight += shares[k] * taps[k].weight;
+  }
+  const auto weighted_by = [&](auto weight, Vec3 DoubleMoments::*mean, double DoubleMoments::*spread) {
+    return merge(
+        taps.size(), [&](std::size_t k) { return shares[k] * weight(taps[k]); },
+        [&](std::size_t k) { return taps[k].*mean; }, [&](std::size_t k) { return taps[k].*spread; });
+  };
+  const auto weight = [](const DoubleMoments& t) { return t.weight; };
+  const auto diffuse = [](const DoubleMoments& t) { return luminance(t.power_diffuse); };
+  const auto specular = [](const DoubleMoments& t) { return luminance(t.power_specular); };
+  const MeanSpread position = weighted_by(weight, &DoubleMoments::position, &DoubleMoments::spread);
+  const MeanSpread diffuse_lobe =
+      weighted_by(diffuse, &DoubleMoments::diffuse_mean, &DoubleMoments::diffuse_deficit);
+  const MeanSpread specular_lobe =
+      weighted_by(specular, &DoubleMoments::specular_mean, &DoubleMoments::specular_deficit);
+  const MeanSpread normal = weighted_by(weight, &DoubleMoments::normal_mean, &DoubleMoments::normal_deficit);
+  m.position = position.mean, m.spread = position.spread;
+  m.diffuse_mean = diffuse_lobe.mean, m.diffuse_deficit = diffuse_lobe.spread;
+  m.specular_mean = specular_lobe.mean, m.specular_deficit = specular_lobe.spread;
+  m.normal_mean = normal.mean, m.normal_deficit = normal.spread;
+  return m;
+}
+
+}  // namespace vsgl

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "math/microfacet.h"
+
+// Specular reflection of a spherical-Gaussian light in double precision: the twin of
+// shaders/lib/specular_lobe.glsl. Each value is the integral of the normalised SG (vMF) times BRDF times
+// cosine, 1/sr.
+
+namespace vsgl {
+
+// What the integral needs of a surface point. Local frame: tangent in the plane of incidence on the side of
+// the view, bitangent across it, normal.
+struct SpecularReceiver {
+  Vec3 tangent, bitangent, normal;
+  double sin_view = 0, cos_view = 1;  // cos_view >= 1e-4
+  double alpha = 1, alpha2 = 1;
+  double lambda_h = 0;     // sharpness of the density of normals
+  double across = 0;       // lambda_h / (4 cos_view^2)
+  Vec3 mirror;             // local: reflection at the dominant normal, times the sharpness of the lobe
+  double view_lambda = 0;  // Smith's Lambda of the view direction
+  std::uint32_t ndf = 0;
+};
+SpecularReceiver specular_receiver(std::uint32_t ndf, double alpha, Vec3 normal, Vec3 view);
+
+// [Tokuyoshi 2024] as published: GGX filtered by the light over 4 sigma.
+double specular_vmf_filtered(const SpecularReceiver& r, Vec3 axis, double sharpness);
+// [EXT] GGX with masking, blended into the exact BRDF as the light sharpens.
+double specular_vmf_ggx(const SpecularReceiver& r, Vec3 axis, double sharpness);
+// [EXT] Beckmann and Phong: Gaussian of projected half vectors, with fall-backs for broad and sharp lights.
+double specular_vmf_gaussian(const SpecularReceiver& r, Vec3 axis, double sharpness);
+// The most accurate form of each density of normals.
+double specular_vmf(const SpecularReceiver& r, Vec3 axis, double sharpness);
+// [Tokuyoshi 2016, C.2] ASG lobe [Xu 2013]; coefficient and smooth term at the light's axis as printed, or at
+// the product lobe's.
+double specular_vmf_asg(const SpecularReceiver& r, Vec3 axis, double sharpness);
+double specular_vmf_asg_product(const SpecularReceiver& r, Vec3 axis, double sharpness);
+
+}  // namespace vsgl
