@@ -72,7 +72,11 @@ void OutputSet::remove_on_signals() {
   struct sigaction action = {};
   action.sa_handler = remove_temporaries_and_exit;
   sigfillset(&action.sa_mask);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction inherited = {};
+    sigaction(number, nullptr, &inherited);
+    if (inherited.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);  // nohup stays in force
+  }
 }
 
 void OutputSet::check(const fs::path& target, bool overwrite) {

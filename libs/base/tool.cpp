@@ -89,7 +89,7 @@ Tool::Tool(std::string name, std::string summary) : name_(std::move(name)), app_
 }
 
 void Tool::add_common_options() {
-  app_.option_defaults()->group("Common options");
+  app_.option_defaults()->group(usage::kCommonGroup);
   app_.set_help_flag("-h,--help", "print this text and exit");
   app_.set_version_flag("--version", name_ + " (vsgltools) " VSGL_VERSION, "print the version and exit");
   CLI::Option* config = app_.set_config("--config", "", "JSON file of options; flags override it");

@@ -8,9 +8,14 @@
 namespace vsgl::usage {
 namespace {
 
+// "1,2,3" from "[1,2,3]", as CLI11 prints lists.
+std::string without_brackets(const std::string& text) {
+  return text.starts_with("[") && text.ends_with("]") ? text.substr(1, text.size() - 2) : text;
+}
+
 // The type and checks of an option: "INT in [1 - 10]", "{a,b}", "FILE".
 std::string type_text(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
+  const std::string type = without_brackets(option.get_type_name());
   const auto colon = type.find(':');
   if (colon == std::string::npos) return type;
   const std::string checks = type.substr(colon + 1);
@@ -42,10 +47,17 @@ const CLI::Option* mentioned_option(const CLI::App& app, const std::string& mess
   return best;
 }
 
+Error count_error(const CLI::Option& option) {
+  const std::string name = options::long_name(option);
+  if (option.results().empty())
+    return Error(ErrorCode::bad_value, name + ": needs a value: " + type_text(option));
+  return Error(ErrorCode::bad_value, name + ": expected " + std::to_string(option.get_items_expected_max()) +
+                                         " value(s), got " + std::to_string(option.results().size()));
+}
+
 Error value_error(const CLI::ParseError& error, const CLI::App& app) {
-  const std::string message = error.what();
-  const CLI::Option* option = mentioned_option(app, message);
-  if (option == nullptr) return Error(ErrorCode::bad_value, message);
+  const CLI::Option* option = mentioned_option(app, error.what());
+  if (option == nullptr) return Error(ErrorCode::bad_value, error.what());
   const auto kind = options::kind_of(*option);
   const std::string name = options::long_name(*option);
   for (const std::string& text : option->results()) {
@@ -54,16 +66,24 @@ Error value_error(const CLI::ParseError& error, const CLI::App& app) {
                    name + ": expected " + options::describe(kind) + ", got \"" + text + "\"");
     }
   }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) return count_error(*option);
   const std::string given = CLI::detail::join(option->results(), " ");
   const std::string type = type_text(*option);
-  const bool numeric = kind == options::Kind::integer || kind == options::Kind::number;
-  if (numeric && dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) {
+  if (kind == options::Kind::integer || kind == options::Kind::number) {
     return Error(ErrorCode::out_of_range, name + ": " + given + " is out of range: expected " + type);
   }
-  if (!type.empty() && type.front() == '{') {
+  if (type.starts_with("{"))
     return Error(ErrorCode::bad_value, name + ": \"" + given + "\" is not one of " + type);
-  }
-  return Error(ErrorCode::bad_value, message);
+  return Error(ErrorCode::bad_value, error.what());
+}
+
+// What CLI11 could not place, a misspelt flag before anything else; "" when nothing is left.
+std::string left_over(const CLI::App& app) {
+  const auto rest = app.remaining();
+  const auto flag =
+      std::find_if(rest.begin(), rest.end(), [](const std::string& text) { return text.starts_with("-"); });
+  if (flag != rest.end()) return *flag;
+  return rest.empty() ? "" : rest.front();
 }
 
 }  // namespace
@@ -73,7 +93,21 @@ std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   std::string text = " " + type_text(*option);
   if (option->get_items_expected_max() > 1 && option->get_delimiter() == '\0') text += " ...";
   if (option->get_required()) text += " (required)";
-  if (!option->get_default_str().empty()) text += " (default: " + option->get_default_str() + ")";
+  if (!option->get_default_str().empty())
+    text += " (default: " + without_brackets(option->get_default_str()) + ")";
+  return text;
+}
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const {
+  std::vector<std::string> groups = app->get_groups();
+  std::stable_partition(groups.begin(), groups.end(),
+                        [](const std::string& group) { return group != kCommonGroup; });
+  std::string text = make_description(app) + make_usage(app, name) + make_positionals(app);
+  for (const std::string& group : groups) {
+    const auto members = app->get_options(
+        [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
+    if (!members.empty()) text += make_group(group, false, members);
+  }
   return text;
 }
 
@@ -91,7 +125,12 @@ void check_values(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     const auto kind = options::kind_of(*option);
     if (kind == options::Kind::flag) continue;
+    const bool is_unsigned = option->get_type_name().starts_with("UINT");
     for (const std::string& text : option->results()) {
+      if (is_unsigned && text.starts_with("-")) {
+        throw Error(ErrorCode::out_of_range,
+                    options::long_name(*option) + ": " + text + " is out of range: expected at least 0");
+      }
       if (!text.empty() && options::reads_as(kind, text)) continue;
       throw Error(ErrorCode::bad_value, options::long_name(*option) + ": expected " +
                                             (text.empty() ? "a value" : options::describe(kind)) +
@@ -102,15 +141,14 @@ void check_values(const CLI::App& app) {
 
 Error translate(const CLI::ParseError& error, const CLI::App& app) {
   const std::string message = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    const std::string extra = app.remaining().empty() ? message : app.remaining().front();
-    if (extra.starts_with("-")) return Error(ErrorCode::unknown_option, unknown_flag(app, extra));
+  const bool is_required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr ||
+                           dynamic_cast<const CLI::RequiresError*>(&error) != nullptr;
+  const std::string extra = left_over(app);
+  if (extra.starts_with("-")) return Error(ErrorCode::unknown_option, unknown_flag(app, extra));
+  if (!is_required && !extra.empty()) {
     return Error(ErrorCode::bad_value, "\"" + extra + "\": unexpected argument; see --help");
   }
-  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr ||
-      dynamic_cast<const CLI::RequiresError*>(&error) != nullptr) {
-    return Error(ErrorCode::missing_option, message + "; see --help");
-  }
+  if (is_required) return Error(ErrorCode::missing_option, message + "; see --help");
   if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr) {
     return Error(ErrorCode::conflicting_options, message + "; give only one of them");
   }
