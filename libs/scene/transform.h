@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+
+#include "math/vec.h"
+
+namespace vsgl::scene {
+
+Mat4 translation(Vec3 offset);
+Mat4 scaling(Vec3 factors);
+// Rotation by a unit quaternion (x, y, z, w); the caller normalises.
+Mat4 rotation(const std::array<double, 4>& quaternion);
+// About x first, then y, then z, all fixed axes; angles in degrees.
+Mat4 rotation_xyz_deg(Vec3 angles);
+
+// Of the upper left 3x3 block.
+double determinant(const Mat4& m);
+// The inverse transpose of the upper left 3x3 block times |determinant|: takes normals to the right side,
+// also under mirroring transforms. Not normalised.
+Vec3 transform_normal(const Mat4& m, Vec3 normal);
+
+// Some unit vector perpendicular to the unit vector `n`, by the method of Duff et al. (2017), "Building an
+// Orthonormal Basis, Revisited".
+Vec3 perpendicular(Vec3 n);
+
+bool is_finite(const Mat4& m);
+inline bool is_finite(Vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace vsgl::scene
