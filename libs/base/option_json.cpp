@@ -182,7 +182,7 @@ std::vector<CLI::ConfigItem> JsonConfig::from_config(std::istream& stream) const
     for (const CLI::Option* option : app_.get_options()) {
       if (!option->get_configurable()) continue;
       const auto value = root.find(key_of(*option));
-      if (!value || value->raw() == default_of(*option)) continue;
+      if (!value || (!value->raw().is_null() && value->raw() == default_of(*option))) continue;
       CLI::ConfigItem item;
       item.name = long_name(*option);
       item.name.erase(0, item.name.find_first_not_of('-'));

@@ -21,6 +21,7 @@ class Report {
   void skipped(const std::string& what, const std::string& why);
   void warn(const std::string& message);
 
+  const std::vector<std::string>& warnings() const { return warnings_; }
   nlohmann::ordered_json to_json() const;
 
  private:

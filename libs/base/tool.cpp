@@ -256,7 +256,7 @@ Exit Tool::work(const std::function<Exit(Report&, OutputSet&)>& body) {
   OutputSet outputs(common_.overwrite);
   const Exit status = body(report, outputs);
   outputs.commit();
-  for (const auto& warning : report.to_json()["warnings"]) log_warning(warning.get<std::string>());
+  for (const std::string& warning : report.warnings()) log_warning(warning);
   print_result(report, outputs);
   return status;
 }
