@@ -5,29 +5,13 @@
 #ifndef VSGL_LIB_KERNEL_SIZE_GLSL
 #define VSGL_LIB_KERNEL_SIZE_GLSL
 #include "lib/sampling.glsl"
-
-// The four texels around a position, clamped to the edge: texel k = (base or next).(k & 1, k >> 1).
-struct BilinearTaps {
-  ivec2 base, next;
-  vec2 fraction;
-};
-BilinearTaps bilinear_taps(vec2 position, int size) {
-  const vec2 texel = position * float(size) - 0.5;
-  const vec2 lower = floor(texel);
-  BilinearTaps taps;
-  taps.base = clamp(ivec2(lower), ivec2(0), ivec2(size - 1));
-  taps.next = clamp(ivec2(lower) + 1, ivec2(0), ivec2(size - 1));
-  taps.fraction = texel - lower;
-  return taps;
-}
+#include "lib/taps.glsl"
 
 float density_bilinear(uint layer, int level, int top, vec2 position) {
   const BilinearTaps taps = bilinear_taps(position, 1 << (top - level));
-  const float p00 = density_at(layer, level, taps.base);
-  const float p10 = density_at(layer, level, ivec2(taps.next.x, taps.base.y));
-  const float p01 = density_at(layer, level, ivec2(taps.base.x, taps.next.y));
-  const float p11 = density_at(layer, level, taps.next);
-  return mix(mix(p00, p10, taps.fraction.x), mix(p01, p11, taps.fraction.x), taps.fraction.y);
+  float sum = 0.0;
+  for (int k = 0; k < 4; ++k) sum += tap_weight(taps, k) * density_at(layer, level, tap_texel(taps, k));
+  return sum;
 }
 
 float density_trilinear(uint layer, float level, int top, vec2 position) {

@@ -1,0 +1,45 @@
+#pragma once
+
+// Generation of virtual lights: an RSM's texels are sampled by a density and filtered over kernels about the
+// samples. docs/sampling.md states the formulas.
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "artifact/artifact.h"
+#include "base/report.h"
+#include "gpu/device.h"
+
+namespace vsgl {
+
+struct LightsParams {
+  std::string method = "fis-2016";  // one of lights_methods()
+  int count = 1024;                 // samples, 1..1048576
+  double kernel_scale = 1;  // K > 0: kernels hold K / count of the samples; power is not affected in fis-2016
+  std::string kernel_solver = "newton";  // fis-2016: newton (exact) | bisection (12 steps, as printed)
+  std::string points = "lattice";        // lattice | fibonacci | random
+  std::uint64_t seed = 0;
+};
+
+// Lights of `rsm` sampled by `pdf`. Samples without power give no light; the others keep the samples' order.
+// The same inputs give the same bytes for any number of threads. Throws bad_value, out_of_range, wrong_size
+// when the density is of another RSM, device_limit.
+Lights generate_lights(const Rsm& rsm, const Pdf& pdf, const LightsParams& params, gpu::Device& device,
+                       Report& report);
+
+// What lights.json holds (configs/schema/lights.schema.json): parameters, statistics and, with `dump`, the
+// lights.
+nlohmann::ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& params, bool dump);
+
+// A way to generate lights. `run` may assume checked parameters and a density that is positive somewhere;
+// lights without power may be among the result.
+struct LightsMethod {
+  std::string name;
+  std::string summary;  // one line, for --list-methods
+  std::vector<interop::Light> (*run)(const Rsm&, const Pdf&, const LightsParams&, gpu::Device&, Report&);
+};
+const std::vector<LightsMethod>& lights_methods();
+
+}  // namespace vsgl

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "math/sampling.h"
+#include "stages/lights/lights.h"
+#include "stages/lights/methods.h"
+
+namespace vsgl {
+namespace {
+
+void check_params(const LightsParams& params) {
+  if (params.count < 1 || params.count > static_cast<int>(interop::MAX_POINTS))
+    throw Error(ErrorCode::out_of_range, "count: " + std::to_string(params.count) + " is outside 1..1048576");
+  if (!(params.kernel_scale > 0 && std::isfinite(params.kernel_scale)))
+    throw Error(ErrorCode::out_of_range, "kernel_scale: " + std::to_string(params.kernel_scale) +
+                                             " is not above 0; 1 gives kernels that just meet");
+  if (params.kernel_solver != "newton" && params.kernel_solver != "bisection")
+    throw Error(ErrorCode::bad_value,
+                "kernel_solver: \"" + params.kernel_solver + "\" is none of newton, bisection");
+  point_set_kind(params.points);
+}
+
+// The density must have been built from an RSM of the same layers.
+void check_density(const Rsm& rsm, const Pdf& pdf) {
+  const std::string remedy = "; build the density from this RSM";
+  if (pdf.size != rsm.size)
+    throw Error(ErrorCode::wrong_size, "density: " + std::to_string(pdf.size) +
+                                           " texels a side, the RSM has " + std::to_string(rsm.size) +
+                                           remedy);
+  const bool same = std::equal(rsm.layers.begin(), rsm.layers.end(), pdf.layers.begin(), pdf.layers.end(),
+                               [](const RsmLayer& a, const Pdf::Layer& b) { return a.name == b.name; });
+  if (!same) throw Error(ErrorCode::missing_part, "density: its layers are not those of the RSM" + remedy);
+}
+
+bool has_power(const interop::Light& light) {
+  const interop::vec3 &d = light.power_diffuse, &s = light.power_specular;
+  return d.x + d.y + d.z + s.x + s.y + s.z > 0;
+}
+
+const LightsMethod& find_method(const std::string& name) {
+  const auto& methods = lights_methods();
+  const auto found =
+      std::find_if(methods.begin(), methods.end(), [&](const LightsMethod& m) { return m.name == name; });
+  if (found != methods.end()) return *found;
+  std::string names;
+  for (const LightsMethod& m : methods) names += (names.empty() ? "" : ", ") + m.name;
+  throw Error(ErrorCode::bad_value, "method: \"" + name + "\" is none of " + names);
+}
+
+}  // namespace
+
+const std::vector<LightsMethod>& lights_methods() {
+  static const std::vector<LightsMethod> methods = {
+      {"vpl", "virtual point lights: the sampled texels", generate_vpl},
+      {"fis-2014", "kernels sized by the density at their centres", generate_fis_2014},
+      {"fis-2016", "kernels that hold equal shares of the samples", generate_fis_2016},
+  };
+  return methods;
+}
+
+Lights generate_lights(const Rsm& rsm, const Pdf& pdf, const LightsParams& params, gpu::Device& device,
+                       Report& report) {
+  const LightsMethod& method = find_method(params.method);
+  check_params(params);
+  check_density(rsm, pdf);
+  Lights out;
+  out.method = method.name;
+  out.anchor = rsm.anchor;
+  out.scene_radius = rsm.scene_radius;
+  out.requested = params.count;
+  const bool dark = std::all_of(pdf.layers.begin(), pdf.layers.end(),
+                                [](const Pdf::Layer& layer) { return layer.pyramid.back() <= 0; });
+  if (dark)
+    report.skipped("lights", "the density is zero everywhere: nothing emits");
+  else
+    out.lights = method.run(rsm, pdf, params, device, report);
+  std::erase_if(out.lights, [](const interop::Light& light) { return !has_power(light); });
+  report.count("lights", out.lights.size());
+  report.count("dropped", static_cast<std::size_t>(params.count) - out.lights.size());
+  return out;
+}
+
+}  // namespace vsgl
