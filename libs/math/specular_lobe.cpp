@@ -74,7 +74,7 @@ Vec3 reflected(const SpecularReceiver& r) {
 
 // [Xu 2013, Eq. (10)] without smooth term, over the SG's integral.
 double asg_convolved(const SpecularReceiver& r, Vec3 light, double sharpness) {
-  const double nu = sharpness / 2, eta_x = r.across / 2, eta_y = r.lambda_h / 8;
+  const double nu = sharpness / 2, eta_y = 2 / r.alpha2 / 8, eta_x = eta_y / (r.cos_view * r.cos_view);
   const Vec3 x{0, 1, 0}, y = cross(reflected(r), x);
   const double dx = dot(light, x), dy = dot(light, y);
   const double exponent = eta_x * nu / (eta_x + nu) * dx * dx + eta_y * nu / (eta_y + nu) * dy * dy;
@@ -94,8 +94,7 @@ SpecularReceiver specular_receiver(std::uint32_t ndf, double alpha, Vec3 normal,
   r.cos_view = std::max(c, cos_min);
   r.alpha = alpha;
   r.alpha2 = alpha * alpha;
-  r.lambda_h = ndf_sharpness(ndf, alpha);
-  r.across = r.lambda_h / (4 * r.cos_view * r.cos_view);
+  r.across = ndf_sharpness(ndf, alpha) / (4 * r.cos_view * r.cos_view);
   const Vec3 local_view{r.sin_view, 0, r.cos_view};
   const Vec3 m = dominant_normal(r.alpha2, {0, 0, 1}, local_view);
   r.mirror = (1 - r.alpha2) / (2 * r.alpha2) * (2 * dot(local_view, m) * m - local_view);
@@ -151,7 +150,7 @@ double specular_vmf_asg(const SpecularReceiver& r, Vec3 axis, double sharpness) 
 
 double specular_vmf_asg_product(const SpecularReceiver& r, Vec3 axis, double sharpness) {
   const Vec3 light = localise(r, axis).light;
-  const Vec3 product = normalise(r.lambda_h / (4 * r.cos_view) * reflected(r) + sharpness * light);
+  const Vec3 product = normalise(2 / r.alpha2 / (4 * r.cos_view) * reflected(r) + sharpness * light);
   const double w = ramp(sharpness / 4 - 1);
   const double smooth_term = std::max(dot((1 - w) * product + w * light, reflected(r)), 0.0);
   return coefficient(r, product.z) * smooth_term * asg_convolved(r, light, sharpness);

@@ -16,8 +16,7 @@ struct SpecularReceiver {
   Vec3 tangent, bitangent, normal;
   double sin_view = 0, cos_view = 1;  // cos_view >= 1e-4
   double alpha = 1, alpha2 = 1;
-  double lambda_h = 0;     // sharpness of the density of normals
-  double across = 0;       // lambda_h / (4 cos_view^2)
+  double across = 0;       // ndf_sharpness / (4 cos_view^2)
   Vec3 mirror;             // local: reflection at the dominant normal, times the sharpness of the lobe
   double view_lambda = 0;  // Smith's Lambda of the view direction
   std::uint32_t ndf = 0;

@@ -12,8 +12,7 @@ struct SpecularReceiver {
   vec3 tangent, bitangent, normal;
   float sin_view, cos_view;  // cos_view >= 1e-4
   float alpha2;
-  float lambda_h;     // sharpness of the density of normals
-  float across;       // lambda_h / (4 cos_view^2): sharpness of the lobe across the plane of incidence
+  float across;       // ndf_sharpness / (4 cos_view^2): sharpness of the lobe across the plane of incidence
   vec2 mirror;        // (tangent, normal) components of the lobe that stands for the BRDF in visibility: axis times sharpness
   float view_lambda;  // Smith's Lambda of the view direction
   uint ndf;
@@ -31,8 +30,7 @@ SpecularReceiver specular_receiver(uint ndf, float alpha, vec3 normal, vec3 view
   r.sin_view = sqrt(t2);
   r.cos_view = max(c, COS_MIN);
   r.alpha2 = alpha * alpha;
-  r.lambda_h = ndf_sharpness(ndf, alpha);
-  r.across = r.lambda_h / (4.0 * r.cos_view * r.cos_view);
+  r.across = ndf_sharpness(ndf, alpha) / (4.0 * r.cos_view * r.cos_view);
   // Reflection at the dominant normal m: 2 (view.m) m - view.
   vec2 m = vec2(r.alpha2 * r.sin_view, r.cos_view + sqrt(r.alpha2 * t2 + r.cos_view * r.cos_view));
   m *= inversesqrt(dot(m, m));
@@ -139,12 +137,12 @@ float specular_vmf(SpecularReceiver r, vec3 axis, float sharpness) {
   return r.ndf == NDF_GGX ? specular_vmf_ggx(r, axis, sharpness) : specular_vmf_gaussian(r, axis, sharpness);
 }
 
-// Exponent and width of the ASG that [Xu 2013, Eq. (10)] gives for the convolution of an SG with the BRDF's ASG: bandwidths lambda_h / 8
-// in the plane of incidence and lambda_h / (8 cos^2) across it. Result over the SG's integral and without smooth term.
+// [Xu 2013, Eq. (10)] integral of the normalised SG times the BRDF's ASG without its smooth term. Bandwidths: lambda_h / 8 in the plane
+// of incidence and lambda_h / (8 cos^2) across it, with lambda_h = 2 / alpha^2 [Tokuyoshi 2016, A.1]: never small, as the form needs.
 float specular_asg_convolved(SpecularReceiver r, vec3 light, float sharpness) {
   float nu = 0.5 * sharpness;
-  float eta_x = 0.5 * r.across;
-  float eta_y = 0.125 * r.lambda_h;
+  float eta_y = 0.25 / r.alpha2;
+  float eta_x = eta_y / (r.cos_view * r.cos_view);
   float x = light.y;
   float y = r.sin_view * light.z + r.cos_view * light.x;
   float exponent = eta_x * (nu / (eta_x + nu)) * x * x + eta_y * (nu / (eta_y + nu)) * y * y;
@@ -168,7 +166,7 @@ float specular_vmf_asg(SpecularReceiver r, vec3 axis, float sharpness) {
 float specular_vmf_asg_product(SpecularReceiver r, vec3 axis, float sharpness) {
   vec3 light = specular_local(r, axis);
   vec3 reflected = vec3(-r.sin_view, 0.0, r.cos_view);
-  float lobe = 0.25 * r.lambda_h / r.cos_view;  // 2 sqrt(eta_x eta_y)
+  float lobe = 0.5 / (r.alpha2 * r.cos_view);  // 2 sqrt(eta_x eta_y)
   vec3 product = lobe * reflected + sharpness * light;
   product *= inversesqrt(max(dot(product, product), 1e-30));
   vec3 smooth_axis = mix(product, light, clamp(0.25 * sharpness - 1.0, 0.0, 1.0));

@@ -1,0 +1,54 @@
+#include "math/lobe.h"
+
+#include <gtest/gtest.h>
+
+#include "quadrature.h"
+
+namespace vsgl {
+namespace {
+
+using Encode = LobeMoments (*)(Vec3, double);
+using Decode = SgLobe (*)(const LobeMoments&);
+
+Vec3 at_degrees(double degrees) {
+  return {std::sin(degrees * test::pi / 180), 0, std::cos(degrees * test::pi / 180)};
+}
+
+// Sharpness of the average of two lobes `degrees` apart.
+double merged(Encode encode, Decode decode, double sharpness1, double sharpness2, double degrees) {
+  const LobeMoments a = encode(at_degrees(0), sharpness1), b = encode(at_degrees(degrees), sharpness2);
+  const Vec3 d = a.mean - b.mean;
+  return decode({0.5 * (a.mean + b.mean), 0.5 * (a.deficit + b.deficit) + 0.25 * dot(d, d)}).sharpness;
+}
+
+TEST(Lobe, RoundTripKeepsSharpness) {
+  const Vec3 axis = normalise(Vec3{1, -2, 0.3});
+  for (double l = 1e-3; l < 2e12; l *= 3) {
+    const SgLobe back = lobe_decode(lobe_encode(axis, std::min(l, sharpness_max)));
+    EXPECT_NEAR(back.sharpness / std::min(l, sharpness_max), 1, 1e-9) << l;
+    EXPECT_NEAR(dot(back.axis, axis), 1, 1e-12);
+    EXPECT_NEAR(toksvig_decode(toksvig_encode(axis, l)).sharpness / std::min(l, sharpness_max), 1, 1e-9) << l;
+  }
+  EXPECT_EQ(lobe_decode(lobe_encode(axis, 0)).sharpness, 0);
+  EXPECT_EQ(lobe_decode({{0, 0, 1}, 0}).sharpness, sharpness_max);
+}
+
+TEST(Lobe, MeanLengthIsThatOfTheSgWithinFivePercentOfSharpness) {
+  for (const double l : {0.1, 1.0, 2.2925, 4.9, 30.0, 1e3}) {
+    const double exact = 1 / std::tanh(l) - 1 / l;  // mean cosine of the normalised SG
+    EXPECT_NEAR(lobe_sharpness(exact, 1 - exact * exact) / l, 1, 0.05) << l;
+  }
+  EXPECT_NEAR(1 - lobe_one_minus_length(2.2925), 0.574926, 2e-6);
+}
+
+TEST(Lobe, MergesLikeTheExactMean) {
+  EXPECT_NEAR(merged(lobe_encode, lobe_decode, 2.29, 2.29, 60), 1.820, 2e-3);  // exact 1.827
+  EXPECT_NEAR(merged(lobe_encode, lobe_decode, 5, 500, 0), 9.81, 0.01);        // exact 9.91
+  EXPECT_NEAR(merged(lobe_encode, lobe_decode, 100, 100, 20), 40.3, 0.1);      // exact 39.9
+  EXPECT_NEAR(merged(toksvig_encode, toksvig_decode, 2.29, 2.29, 60), 1.518, 2e-3);
+  EXPECT_NEAR(merged(toksvig_encode, toksvig_decode, 5, 500, 0), 10.86, 0.01);
+  EXPECT_NEAR(merged(toksvig_encode, toksvig_decode, 100, 100, 20), 39.1, 0.1);
+}
+
+}  // namespace
+}  // namespace vsgl
