@@ -21,8 +21,13 @@ T in_range(const ExrFile& file, const std::string& name, T value, T minimum, T m
 }  // namespace
 
 ExrPart make_part(const std::string& name, const std::string& kind, const Provenance& provenance) {
+  // Files of one name in different folders are told apart as a.exr, a.exr#2, ...
   nlohmann::ordered_json inputs = nlohmann::ordered_json::object();
-  for (const Provenance::Input& input : provenance.inputs) inputs[input.name] = input.sha256;
+  for (const Provenance::Input& input : provenance.inputs) {
+    std::string key = input.name;
+    for (int n = 2; inputs.contains(key); ++n) key = input.name + "#" + std::to_string(n);
+    inputs[key] = input.sha256;
+  }
   ExrPart part;
   part.name = name;
   part.attributes = {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Headers of artifacts: schema, provenance, and the checks that every reader makes. Private to this library.
+// Headers of artifacts: schema, provenance, and the checks that every reader makes.
 
 #include <filesystem>
 #include <string>
