@@ -1,0 +1,238 @@
+#include "stages/shading/pass.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+
+#include "gpu/buffer.h"
+#include "gpu/compute.h"
+#include "interop/model.h"
+
+namespace vsgl {
+namespace {
+
+using interop::ShadingLight;
+using interop::ShadingSums;
+using interop::Surface;
+
+constexpr const char* kPhase = "shade";
+constexpr std::array<const char*, 5> kNdfNames = {"diffuse", "ggx", "beckmann", "phong", "general"};
+
+bool is_black(interop::vec3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+bool is_bumped(const Surface& s) {
+  return s.normal.x != s.shading_normal.x || s.normal.y != s.shading_normal.y || s.normal.z != s.shading_normal.z;
+}
+
+// Pixels that one pipeline serves, in the order of the image.
+struct ReceiverList {
+  std::uint32_t ndf = interop::NDF_NONE;
+  bool bumped = false;
+  std::vector<std::uint32_t> pixels;
+  std::vector<Surface> surfaces;
+};
+
+std::vector<ReceiverList> sort_receivers(const GBuffer& gbuffer, bool skip) {
+  std::array<ReceiverList, 5> lists;
+  for (std::uint32_t i = 0; i < gbuffer.pixels.size(); ++i) {
+    const Surface& s = gbuffer.pixels[i];
+    if (s.id == interop::NO_INSTANCE) continue;
+    std::uint32_t ndf = is_black(s.specular) ? interop::NDF_NONE : s.ndf;
+    if (!skip) ndf = interop::NDF_ANY;
+    lists[ndf].bumped = lists[ndf].bumped || !skip || is_bumped(s);
+    lists[ndf].pixels.push_back(i);
+    lists[ndf].surfaces.push_back(s);
+  }
+  std::vector<ReceiverList> out;
+  for (std::uint32_t ndf = 0; ndf < lists.size(); ++ndf) {
+    lists[ndf].ndf = ndf;
+    if (!lists[ndf].pixels.empty()) out.push_back(std::move(lists[ndf]));
+  }
+  return out;
+}
+
+// Lights that one pipeline serves, in the order of the artifact.
+struct LightList {
+  std::uint32_t ndf = interop::NDF_NONE;
+  std::vector<ShadingLight> lights;
+};
+
+std::vector<LightList> sort_lights(const std::vector<ShadingLight>& lights, bool skip) {
+  std::array<LightList, 5> lists;
+  for (const ShadingLight& light : lights) lists[skip ? light.ndf : interop::NDF_ANY].lights.push_back(light);
+  std::vector<LightList> out;
+  for (std::uint32_t ndf = 0; ndf < lists.size(); ++ndf) {
+    lists[ndf].ndf = ndf;
+    if (!lists[ndf].lights.empty()) out.push_back(std::move(lists[ndf]));
+  }
+  return out;
+}
+
+void report_classes(const GBuffer& gbuffer, const std::vector<ReceiverList>& receivers, const std::vector<LightList>& lights,
+                    const ShadowMaps* maps, const ShadingKernel& kernel, Report& report) {
+  std::size_t seen = 0;
+  for (const ReceiverList& list : receivers) {
+    report.count(std::string("pixels_") + kNdfNames[list.ndf], list.pixels.size());
+    seen += list.pixels.size();
+    if (!list.bumped) report.skipped("geometric horizon", std::string(kNdfNames[list.ndf]) + " pixels have no normal map");
+  }
+  for (const LightList& list : lights) report.count(std::string("lights_") + kNdfNames[list.ndf], list.lights.size());
+  report.count("evaluations", seen * kernel.lights.size());
+  if (seen < gbuffer.pixels.size())
+    report.skipped("background", std::to_string(gbuffer.pixels.size() - seen) + " pixels see nothing");
+  if (!kernel.skip) return;
+  const auto is_diffuse = [](const auto& list) { return list.ndf == interop::NDF_NONE; };
+  if (std::all_of(receivers.begin(), receivers.end(), is_diffuse))
+    report.skipped("specular reflection", "no pixel has a specular lobe");
+  if (std::all_of(lights.begin(), lights.end(), is_diffuse))
+    report.skipped("specular emission", "no light has a specular lobe");
+  if (!maps) report.skipped("visibility", "no shadow maps given");
+}
+
+// The device's side of one run.
+class Pass {
+ public:
+  Pass(const GBuffer& gbuffer, const ShadowMaps* maps, const ShadingKernel& kernel, gpu::Device& device)
+      : kernel_(kernel), device_(device), shadows_(maps != nullptr), atlas_(upload_atlas(maps)), views_(upload_views(maps)) {
+    push_.camera = {static_cast<float>(gbuffer.camera.x), static_cast<float>(gbuffer.camera.y),
+                    static_cast<float>(gbuffer.camera.z)};
+    push_.cancel_scale = kernel.threshold > 0 ? 2 / kernel.threshold : 0;
+    push_.clamp_distance2 = kernel.clamp_distance2;
+    if (!maps) return;
+    push_.tile = static_cast<std::uint32_t>(maps->tile);
+    push_.columns = static_cast<std::uint32_t>(maps->columns);
+    push_.disk_bias = static_cast<float>(maps->bias_disk_radius / 4);
+    push_.normal_offset = static_cast<float>(maps->normal_offset);
+    push_.slope_bias = static_cast<float>(maps->slope_bias);
+    push_.relative_bias = static_cast<float>(maps->relative_bias);
+  }
+
+  // Sums of the pixels of `receivers` over all lights, in the fixed order of the lists.
+  std::vector<ShadingSums> run(const ReceiverList& receivers, const std::vector<LightList>& lights, Report& report) {
+    gpu::Buffer surfaces = gpu::Buffer::from(device_, receivers.surfaces);
+    gpu::Buffer results(device_, receivers.surfaces.size() * sizeof(ShadingSums));
+    results.clear();
+    for (const LightList& list : lights) {
+      const gpu::ComputePipeline pipeline = build(receivers, list);
+      for (std::size_t first = 0; first < list.lights.size(); first += block_lights()) {
+        const std::size_t count = std::min(block_lights(), list.lights.size() - first);
+        gpu::Buffer block = upload_block(std::span(list.lights).subspan(first, count));
+        dispatch(pipeline, surfaces, block, results, receivers.surfaces.size(), count, report);
+      }
+    }
+    return results.download<ShadingSums>(receivers.surfaces.size());
+  }
+
+ private:
+  gpu::Buffer upload_atlas(const ShadowMaps* maps) const {
+    return maps ? gpu::Buffer::from(device_, maps->inverse_distance) : gpu::Buffer(device_, 0);
+  }
+  gpu::Buffer upload_views(const ShadowMaps* maps) const {
+    std::vector<interop::ShadingView> views;
+    if (maps)
+      for (const ShadowMaps::View& view : maps->views) views.push_back({view.origin, view.axis});
+    return gpu::Buffer::from(device_, views);
+  }
+
+  std::size_t block_lights() const {
+    return std::min<std::size_t>(interop::SHADING_BLOCK_LIGHTS, device_.limits().maxUniformBufferRange / sizeof(ShadingLight));
+  }
+  // The whole block is bound, so that the shader's array is backed even where it is not read.
+  gpu::Buffer upload_block(std::span<const ShadingLight> lights) const {
+    std::vector<ShadingLight> padded(lights.begin(), lights.end());
+    padded.resize(block_lights());
+    return gpu::Buffer::from(device_, padded);
+  }
+
+  gpu::ComputePipeline build(const ReceiverList& receivers, const LightList& lights) const {
+    using gpu::Binding;
+    return gpu::ComputePipeline(
+        device_, kernel_.spirv,
+        {Binding::storage, Binding::uniform, Binding::storage, Binding::storage, Binding::storage}, sizeof(push_),
+        {{interop::SHADING_RECEIVER_ID, receivers.ndf},
+         {interop::SHADING_EMISSION_ID, lights.ndf},
+         {interop::SHADING_SHADOWS_ID, shadows_},
+         {interop::SHADING_CANCEL_ID, kernel_.threshold > 0},
+         {interop::SHADING_BUMPED_ID, receivers.bumped},
+         {interop::SHADING_ASG_ID, kernel_.asg}});
+  }
+
+  void dispatch(const gpu::ComputePipeline& pipeline, gpu::Buffer& surfaces, gpu::Buffer& block, gpu::Buffer& results,
+                std::size_t receivers, std::size_t lights, Report& report) {
+    push_.receivers = static_cast<std::uint32_t>(receivers);
+    push_.lights = static_cast<std::uint32_t>(lights);
+    gpu::Commands commands(device_);
+    commands.dispatch(kPhase, pipeline, {surfaces, block, results, atlas_, views_}, push_,
+                      {gpu::groups_for(receivers, interop::SHADING_GROUP * interop::SHADING_PIXELS), 1, 1});
+    commands.submit(report);
+  }
+
+  const ShadingKernel& kernel_;
+  gpu::Device& device_;
+  bool shadows_;
+  gpu::Buffer atlas_, views_;
+  interop::ShadingPush push_;
+};
+
+interop::vec3 product(interop::vec3 a, interop::vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+double luminance(interop::vec3 c) { return vsgl::luminance(Vec3{c.x, c.y, c.z}); }
+
+}  // namespace
+
+std::vector<ShadingSums> run_shading(const GBuffer& gbuffer, const ShadowMaps* maps, const ShadingKernel& kernel,
+                                     gpu::Device& device, Report& report) {
+  const std::vector<ReceiverList> receivers = sort_receivers(gbuffer, kernel.skip);
+  const std::vector<LightList> lights = sort_lights(kernel.lights, kernel.skip);
+  report_classes(gbuffer, receivers, lights, maps, kernel, report);
+  PhaseTimer timer(report, kPhase);
+  Pass pass(gbuffer, maps, kernel, device);
+  std::vector<ShadingSums> image(gbuffer.pixels.size());
+  for (const ReceiverList& list : receivers) {
+    const std::vector<ShadingSums> sums = pass.run(list, lights, report);
+    for (std::size_t i = 0; i < sums.size(); ++i) image[list.pixels[i]] = sums[i];
+  }
+  return image;
+}
+
+Indirect compose(const GBuffer& gbuffer, const std::vector<ShadingSums>& sums, bool all) {
+  Indirect out;
+  out.width = gbuffer.width;
+  out.height = gbuffer.height;
+  const bool specular = all || gbuffer.has_specular();
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    out.diffuse.push_back(product(gbuffer.pixels[i].diffuse, sums[i].diffuse));
+    if (specular) out.specular.push_back(product(gbuffer.pixels[i].specular, sums[i].specular));
+  }
+  return out;
+}
+
+double pixel_luminance(const Indirect& image, std::size_t pixel) {
+  return luminance(image.diffuse[pixel]) + (image.specular.empty() ? 0 : luminance(image.specular[pixel]));
+}
+
+namespace {
+
+// Share of each pixel's luminance that came from cancelled lights, 0..1.
+std::vector<float> cancelled_share(const Indirect& indirect, const std::vector<ShadingSums>& sums) {
+  std::vector<float> share(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double total = pixel_luminance(indirect, i);
+    share[i] = total > 0 ? static_cast<float>(std::min(static_cast<double>(sums[i].aside) / total, 1.0)) : 0.0f;
+  }
+  return share;
+}
+
+}  // namespace
+
+Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const ShadowMaps* maps, const ShadingParams& params,
+                  gpu::Device& device, Report& report) {
+  kernel.threshold = static_cast<float>(params.cbr);
+  kernel.asg = params.specular_lobe == "asg";
+  kernel.skip = params.skip;
+  const auto sums = run_shading(gbuffer, maps, kernel, device, report);
+  Indirect out = compose(gbuffer, sums, !params.skip);
+  if (params.cbr > 0) out.cancellation = cancelled_share(out, sums);
+  return out;
+}
+
+}  // namespace vsgl

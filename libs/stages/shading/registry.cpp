@@ -1,0 +1,55 @@
+#include <algorithm>
+
+#include "base/error.h"
+#include "stages/shading/methods.h"
+#include "stages/shading/shading.h"
+
+namespace vsgl {
+namespace {
+
+constexpr double kAnchorTolerance = 1e-6;  // of the scene's radius
+
+void require_range(const char* name, double value, double maximum) {
+  if (!(value >= 0 && value <= maximum))
+    throw Error(ErrorCode::out_of_range, std::string(name) + ": " + std::to_string(value) + " is outside 0.." +
+                                             std::to_string(maximum) + "; choose a value within");
+}
+
+void require_same_anchor(const char* what, Vec3 anchor, const GBuffer& gbuffer) {
+  if (length(anchor - gbuffer.anchor) > kAnchorTolerance * gbuffer.scene_radius)
+    throw Error(ErrorCode::invalid_data, std::string(what) + ": anchor differs from the G-buffer's; make both from the same scene");
+}
+
+}  // namespace
+
+const std::vector<ShadingMethod>& shading_methods() {
+  static const std::vector<ShadingMethod> methods = {
+      {"vpl", "virtual point lights with the true BRDFs and a floor of the distance", shade_vpl},
+      {"vsgl", "virtual spherical Gaussian lights with Gaussian footprints (2016)", shade_vsgl},
+      {"vsgl-2014", "virtual spherical Gaussian lights as disks (2014)", shade_vsgl_2014},
+  };
+  return methods;
+}
+
+Indirect shade(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps, const ShadingParams& params,
+               gpu::Device& device, Report& report) {
+  const auto& methods = shading_methods();
+  const auto method =
+      std::find_if(methods.begin(), methods.end(), [&](const ShadingMethod& m) { return m.name == params.method; });
+  if (method == methods.end())
+    throw Error(ErrorCode::bad_value, "method: \"" + params.method + "\" is none of vpl, vsgl, vsgl-2014");
+  if (params.specular_lobe != "auto" && params.specular_lobe != "asg")
+    throw Error(ErrorCode::bad_value, "specular_lobe: \"" + params.specular_lobe + "\" is none of auto, asg");
+  require_range("clamp", params.clamp, 1);
+  require_range("cbr", params.cbr, 1);
+  require_same_anchor("lights", lights.anchor, gbuffer);
+  if (maps) {
+    require_same_anchor("shadow maps", maps->anchor, gbuffer);
+    if (maps->views.size() != lights.lights.size())
+      throw Error(ErrorCode::wrong_size, "shadow maps: " + std::to_string(maps->views.size()) + " for " +
+                                             std::to_string(lights.lights.size()) + " lights; make them from these lights");
+  }
+  return method->run(gbuffer, lights, maps, params, device, report);
+}
+
+}  // namespace vsgl

@@ -1,0 +1,79 @@
+// What the shading kernels of `shade` exchange with their host code.
+#ifndef VSGL_INTEROP_SHADING_H
+#define VSGL_INTEROP_SHADING_H
+#include "interop/interop.h"
+
+VSGL_INTEROP_BEGIN
+
+// A light with everything that does not depend on the pixel computed beforehand.
+struct ShadingLight {
+  vec3 position;            // mean, m, relative to the anchor; VPL: the representative point
+  float variance;           // per axis, m^2, > 0
+  vec3 diffuse_axis;        // along emission
+  float diffuse_sharpness;
+  vec3 power_diffuse;       // W
+  float diffuse_scale;      // 1 / A(diffuse_sharpness): power times this is the SG's peak, W/sr
+  vec3 specular_axis;
+  float specular_sharpness;
+  vec3 power_specular;      // W
+  float specular_scale;     // 1 / A(specular_sharpness); disk formulation: also over the cosine of its axis
+  vec3 normal;              // geometric, of the mean surface
+  float bandwidth;          // sharpest emission lobe, for bias reduction
+  vec3 shading_normal;      // of the representative point
+  float alpha;
+  vec3 incident;            // towards the light source
+  float cos_incident;       // incident . shading_normal, at least 1e-4
+  uint ndf;                 // NDF_* of the representative surface
+  uint index;               // of the light in lights.exr: its tile in the shadow atlas
+};
+VSGL_CHECK_SIZE(ShadingLight, 136)
+
+// Lights in one uniform block of 64 KiB; the host fills less where the device's limit is lower.
+VSGL_CONST uint SHADING_BLOCK_LIGHTS = 480u;
+
+// Sums of one receiver, without its reflectances.
+struct ShadingSums {
+  vec3 diffuse;    // irradiance / pi
+  float aside;     // luminance of the radiance that cancelled lights gave; VPL: that the clamp took away
+  vec3 specular;   // radiance / specular reflectance
+  float padding;
+};
+VSGL_CHECK_SIZE(ShadingSums, 32)
+
+struct ShadingPush {
+  vec3 camera;            // relative to the anchor, m
+  uint receivers;         // in the list
+  uint lights;            // in the block
+  float cancel_scale;     // 2 / a_cbr
+  float clamp_distance2;  // VPL: floor of the squared distance, m^2
+  uint tile;              // shadow map texels a side
+  uint columns;           // tiles a row of the atlas
+  float disk_bias;        // m
+  float normal_offset;    // texels
+  float slope_bias;       // texels per tangent
+  float relative_bias;
+};
+VSGL_CHECK_SIZE(ShadingPush, 52)
+
+// Where a light's shadow map looks: hemisphere about `axis`.
+struct ShadingView {
+  vec3 origin;  // m, relative to the anchor
+  vec3 axis;    // unit
+};
+VSGL_CHECK_SIZE(ShadingView, 24)
+
+// Specialisation constants of the shading kernels.
+VSGL_CONST uint SHADING_RECEIVER_ID = 0u;  // NDF_* of the receivers, NDF_NONE: diffuse only, NDF_ANY: read per pixel
+VSGL_CONST uint SHADING_EMISSION_ID = 1u;  // NDF_* of the lights, likewise
+VSGL_CONST uint SHADING_SHADOWS_ID = 2u;   // 1: look up shadow maps
+VSGL_CONST uint SHADING_CANCEL_ID = 3u;    // 1: consistent bias reduction
+VSGL_CONST uint SHADING_BUMPED_ID = 4u;    // 1: shading normals differ from geometric ones
+VSGL_CONST uint SHADING_ASG_ID = 5u;       // 1: anisotropic SG for the specular lobe, as the papers print it
+VSGL_CONST uint NDF_ANY = 4u;
+
+// Pixels per invocation and invocations per group.
+VSGL_CONST uint SHADING_PIXELS = 8u;
+VSGL_CONST uint SHADING_GROUP = 64u;
+
+VSGL_INTEROP_END
+#endif
