@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/strict_json.h"
 #include "interop/model.h"
+#include "math/frame.h"
 #include "scene/mesh_file.h"
 #include "scene/mesh_material.h"
 #include "scene/scene.h"
@@ -262,7 +263,7 @@ class Loader {
       const Vec3 normal = normalise(transform_normal(transform, wide(vertex.normal)));
       const Vec3 along = transform.direction(wide({vertex.tangent[0], vertex.tangent[1], vertex.tangent[2]}));
       Vec3 tangent = normalise(along - normal * dot(along, normal));
-      if (length(tangent) < 0.5) tangent = perpendicular(normal);
+      if (length(tangent) < 0.5) tangent = frame_about(normal).x;
       const auto [x, y, z] = single(tangent);
       out.push_back({single(position), single(normal), {x, y, z, handedness * vertex.tangent[3]}, vertex.uv});
       if (!is_finite(wide(out.back().position)) || !is_finite(normal)) {

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
+#include "math/frame.h"
 #include "scene/mesh_material.h"
 #include "scene/transform.h"
 
@@ -125,7 +126,7 @@ std::array<float, 4> import_tangent(const aiMesh& mesh, unsigned i, Vec3 normal)
     handedness = dot(cross(normal, tangent), vec3(mesh.mBitangents[i])) < 0 ? -1.0f : 1.0f;
   }
   if (!is_finite(tangent) || length(tangent) < 0.5)
-    tangent = perpendicular(normal);  // no or folded texture coordinates
+    tangent = frame_about(normal).x;  // no or folded texture coordinates
   const auto [x, y, z] = single(tangent);
   return {x, y, z, handedness};
 }

@@ -81,12 +81,6 @@ Vec3 transform_normal(const Mat4& m, Vec3 normal) {
   return determinant(m) < 0 ? -out : out;
 }
 
-Vec3 perpendicular(Vec3 n) {
-  const double sign = std::copysign(1.0, n.z);
-  const double a = -1 / (sign + n.z);
-  return {1 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
-}
-
 bool is_finite(const Mat4& m) {
   for (const auto& matrix_row : m.m)
     for (double value : matrix_row)

@@ -19,10 +19,6 @@ double determinant(const Mat4& m);
 // also under mirroring transforms. Not normalised.
 Vec3 transform_normal(const Mat4& m, Vec3 normal);
 
-// Some unit vector perpendicular to the unit vector `n`, by the method of Duff et al. (2017), "Building an
-// Orthonormal Basis, Revisited".
-Vec3 perpendicular(Vec3 n);
-
 bool is_finite(const Mat4& m);
 inline bool is_finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "scene/procedural.h"
+#include "scene/procedural/model.h"
+
+namespace vsgl::scene {
+
+// One function a scene; each in the file of its name.
+Model make_cornell(const GenerateOptions& options);
+Model make_cornell_glossy(const GenerateOptions& options);
+Model make_caustic_ring(const GenerateOptions& options);
+Model make_atrium(const GenerateOptions& options);
+Model make_thin_walls(const GenerateOptions& options);
+
+// The roughness that the options ask for, or `fallback`; and the NDF that goes with it.
+struct Lobe {
+  double alpha;
+  std::string ndf;
+};
+Lobe chosen_lobe(const GenerateOptions& options, double fallback);
+
+}  // namespace vsgl::scene

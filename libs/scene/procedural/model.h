@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "math/vec.h"
+
+namespace vsgl::scene {
+
+// Triangles of one material; as glTF stores them.
+struct ModelMesh {
+  std::string name;
+  int material = 0;
+  std::vector<std::array<float, 3>> positions, normals;
+  std::vector<std::array<float, 2>> uvs;  // none: no texture coordinates
+  std::vector<std::uint32_t> indices;
+};
+
+struct ModelNode {
+  std::string name;
+  int mesh = 0;
+  Mat4 transform;
+};
+
+struct ModelMaterial {
+  std::string name;
+  Vec3 base_color{};  // diffuse reflectance, or of a metal the specular one
+  Vec3 specular{};    // of a dielectric
+  bool metal = false;
+  double alpha = 1;  // roughness of the specular lobe
+  std::string ndf = "ggx";
+  std::string base_color_image{}, normal_image{};  // file names; empty: none
+  bool has_lobe() const { return metal || specular != Vec3{}; }
+};
+
+struct ModelImage {
+  std::string name;   // file name
+  std::string bytes;  // PNG
+};
+
+// A spot light or camera at `position`, looking at `target`.
+struct ModelView {
+  Vec3 position, target;
+  double fov_deg = 40;  // camera: vertical, whole; light: half angle of the outer cone
+};
+
+// A scene before it is moved, scaled and written; metres, y up.
+struct Model {
+  std::vector<ModelMaterial> materials;
+  std::vector<ModelMesh> meshes;
+  std::vector<ModelNode> nodes;
+  std::vector<ModelImage> images;
+  ModelView camera, light;
+  double light_inner_deg = 0;  // half angle of the cone of full intensity
+  double light_intensity_w_sr = 1;
+  int width = 640, height = 360;
+
+  int add_material(ModelMaterial material) {
+    materials.push_back(std::move(material));
+    return static_cast<int>(materials.size()) - 1;
+  }
+  // A mesh, and a node that shows it where it is. Returns the mesh's index.
+  int add(ModelMesh mesh) {
+    nodes.push_back({mesh.name, static_cast<int>(meshes.size()), {}});
+    meshes.push_back(std::move(mesh));
+    return static_cast<int>(meshes.size()) - 1;
+  }
+  std::size_t triangle_count() const {
+    std::size_t count = 0;
+    for (const ModelNode& node : nodes) count += meshes[node.mesh].indices.size() / 3;
+    return count;
+  }
+};
+
+}  // namespace vsgl::scene

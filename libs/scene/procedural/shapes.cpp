@@ -1,0 +1,91 @@
+#include "scene/procedural/shapes.h"
+
+namespace vsgl::scene {
+namespace {
+
+std::array<float, 3> single(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+}  // namespace
+
+std::uint32_t Shapes::vertex(Vec3 position, Vec3 normal, double u, double v) {
+  mesh_.positions.push_back(single(position));
+  mesh_.normals.push_back(single(normalise(normal)));
+  if (textured_) mesh_.uvs.push_back({static_cast<float>(u), static_cast<float>(v)});
+  return static_cast<std::uint32_t>(mesh_.positions.size()) - 1;
+}
+
+// Two triangles for each cell of (columns + 1) x (rows + 1) vertices that start at `first`.
+void Shapes::cells(std::uint32_t first, int columns, int rows) {
+  const auto stride = static_cast<std::uint32_t>(columns) + 1;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const std::uint32_t a =
+          first + static_cast<std::uint32_t>(row) * stride + static_cast<std::uint32_t>(column);
+      for (const std::uint32_t index : {a, a + 1, a + stride + 1, a, a + stride + 1, a + stride}) {
+        mesh_.indices.push_back(index);
+      }
+    }
+}
+
+void Shapes::quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const Vec3 normal = cross(c - a, d - b);
+  const double width = length(b - a), height = length(d - a);
+  const std::uint32_t first = vertex(a, normal, 0, 0);
+  vertex(b, normal, width, 0);
+  vertex(c, normal, width, height);
+  vertex(d, normal, 0, height);
+  for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh_.indices.push_back(first + corner);
+}
+
+void Shapes::grid(Vec3 origin, Vec3 u, Vec3 v, int columns, int rows, double tile) {
+  const Vec3 normal = cross(u, v);
+  const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+  for (int row = 0; row <= rows; ++row)
+    for (int column = 0; column <= columns; ++column) {
+      const double s = static_cast<double>(column) / columns, t = static_cast<double>(row) / rows;
+      // The texture's rows count downwards, against v.
+      vertex(origin + u * s + v * t, normal, s * length(u) / tile, -t * length(v) / tile);
+    }
+  cells(first, columns, rows);
+}
+
+void Shapes::box(Vec3 low, Vec3 high, const std::string& faces) {
+  const auto corner = [&](int x, int y, int z) {
+    return Vec3{x != 0 ? high.x : low.x, y != 0 ? high.y : low.y, z != 0 ? high.z : low.z};
+  };
+  for (const char face : faces) switch (face) {
+      case 'x':
+        quad(corner(0, 0, 0), corner(0, 0, 1), corner(0, 1, 1), corner(0, 1, 0));
+        break;
+      case 'X':
+        quad(corner(1, 0, 1), corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1));
+        break;
+      case 'y':
+        quad(corner(0, 0, 0), corner(1, 0, 0), corner(1, 0, 1), corner(0, 0, 1));
+        break;
+      case 'Y':
+        quad(corner(0, 1, 1), corner(1, 1, 1), corner(1, 1, 0), corner(0, 1, 0));
+        break;
+      case 'z':
+        quad(corner(1, 0, 0), corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0));
+        break;
+      default:
+        quad(corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1));
+        break;
+    }
+}
+
+void Shapes::surface(int columns, int rows, const std::function<Point(double s, double t)>& at) {
+  const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+  for (int row = 0; row <= rows; ++row)
+    for (int column = 0; column <= columns; ++column) {
+      const double s = static_cast<double>(column) / columns, t = static_cast<double>(row) / rows;
+      const Point point = at(s, t);
+      vertex(point.position, point.normal, s, -t);
+    }
+  cells(first, columns, rows);
+}
+
+}  // namespace vsgl::scene
