@@ -1,6 +1,7 @@
 // What the shading kernels of `shade` exchange with their host code.
 #ifndef VSGL_INTEROP_SHADING_H
 #define VSGL_INTEROP_SHADING_H
+#include "interop/geometry.h"
 #include "interop/interop.h"
 
 VSGL_INTEROP_BEGIN
@@ -61,6 +62,14 @@ struct ShadingView {
   vec3 axis;    // unit
 };
 VSGL_CHECK_SIZE(ShadingView, 24)
+
+struct DirectPush {
+  View view;       // the layer's
+  vec3 camera;     // relative to the anchor, m
+  uint receivers;  // in the list
+  uint stride;     // texels a row of the layer
+};
+VSGL_CHECK_SIZE(DirectPush, 116)
 
 // Specialisation constants of the shading kernels.
 VSGL_CONST uint SHADING_RECEIVER_ID = 0u;  // NDF_* of the receivers, NDF_NONE: diffuse only, NDF_ANY: read per pixel

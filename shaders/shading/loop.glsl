@@ -5,7 +5,7 @@ void main() {
   Receiver receivers[SHADING_PIXELS];
   Sums sums[SHADING_PIXELS];
   [[unroll]] for (uint j = 0; j < SHADING_PIXELS; ++j) {
-    receivers[j] = load_receiver(min(first + j * SHADING_GROUP, push.receivers - 1));
+    receivers[j] = make_receiver(surfaces[min(first + j * SHADING_GROUP, push.receivers - 1)], push.camera);
     sums[j] = Sums(vec3(0.0), vec3(0.0), 0.0);
   }
   for (uint i = 0; i < push.lights; ++i) {

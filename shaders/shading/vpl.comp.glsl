@@ -5,7 +5,7 @@
 
 // Virtual point lights with the true BRDFs at both ends.
 
-#include "shading/exact.glsl"
+#include "shading/emission.glsl"
 #include "shading/shadow.glsl"
 
 // [Keller 1997] L = power f_y f_x cos cos / d^2.

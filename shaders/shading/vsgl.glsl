@@ -4,7 +4,7 @@
 #ifndef VSGL_SHADING_VSGL_GLSL
 #define VSGL_SHADING_VSGL_GLSL
 
-#include "shading/exact.glsl"
+#include "shading/emission.glsl"
 #include "shading/fused.glsl"
 #include "shading/shadow.glsl"
 

@@ -8,48 +8,16 @@
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
 #include "interop/model.h"
+#include "stages/shading/receivers.h"
 
 namespace vsgl {
 namespace {
 
 using interop::ShadingLight;
 using interop::ShadingSums;
-using interop::Surface;
 
 constexpr const char* kPhase = "shade";
-constexpr std::array<const char*, 5> kNdfNames = {"diffuse", "ggx", "beckmann", "phong", "general"};
-
-bool is_black(interop::vec3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
-bool is_bumped(const Surface& s) {
-  return s.normal.x != s.shading_normal.x || s.normal.y != s.shading_normal.y || s.normal.z != s.shading_normal.z;
-}
-
-// Pixels that one pipeline serves, in the order of the image.
-struct ReceiverList {
-  std::uint32_t ndf = interop::NDF_NONE;
-  bool bumped = false;
-  std::vector<std::uint32_t> pixels;
-  std::vector<Surface> surfaces;
-};
-
-std::vector<ReceiverList> sort_receivers(const GBuffer& gbuffer, bool skip) {
-  std::array<ReceiverList, 5> lists;
-  for (std::uint32_t i = 0; i < gbuffer.pixels.size(); ++i) {
-    const Surface& s = gbuffer.pixels[i];
-    if (s.id == interop::NO_INSTANCE) continue;
-    std::uint32_t ndf = is_black(s.specular) ? interop::NDF_NONE : s.ndf;
-    if (!skip) ndf = interop::NDF_ANY;
-    lists[ndf].bumped = lists[ndf].bumped || !skip || is_bumped(s);
-    lists[ndf].pixels.push_back(i);
-    lists[ndf].surfaces.push_back(s);
-  }
-  std::vector<ReceiverList> out;
-  for (std::uint32_t ndf = 0; ndf < lists.size(); ++ndf) {
-    lists[ndf].ndf = ndf;
-    if (!lists[ndf].pixels.empty()) out.push_back(std::move(lists[ndf]));
-  }
-  return out;
-}
+constexpr std::array<const char*, interop::NDF_ANY + 1> kNdfNames = {"diffuse", "ggx", "beckmann", "phong", "general"};
 
 // Lights that one pipeline serves, in the order of the artifact.
 struct LightList {
@@ -58,13 +26,15 @@ struct LightList {
 };
 
 std::vector<LightList> sort_lights(const std::vector<ShadingLight>& lights, bool skip) {
-  std::array<LightList, 5> lists;
-  for (const ShadingLight& light : lights) lists[skip ? light.ndf : interop::NDF_ANY].lights.push_back(light);
-  std::vector<LightList> out;
-  for (std::uint32_t ndf = 0; ndf < lists.size(); ++ndf) {
+  std::array<LightList, interop::NDF_ANY + 1> lists;
+  for (const ShadingLight& light : lights) {
+    const std::uint32_t ndf = skip ? light.ndf : interop::NDF_ANY;
     lists[ndf].ndf = ndf;
-    if (!lists[ndf].lights.empty()) out.push_back(std::move(lists[ndf]));
+    lists[ndf].lights.push_back(light);
   }
+  std::vector<LightList> out;
+  for (LightList& list : lists)
+    if (!list.lights.empty()) out.push_back(std::move(list));
   return out;
 }
 

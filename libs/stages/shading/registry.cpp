@@ -15,12 +15,12 @@ void require_range(const char* name, double value, double maximum) {
                                              std::to_string(maximum) + "; choose a value within");
 }
 
-void require_same_anchor(const char* what, Vec3 anchor, const GBuffer& gbuffer) {
-  if (length(anchor - gbuffer.anchor) > kAnchorTolerance * gbuffer.scene_radius)
-    throw Error(ErrorCode::invalid_data, std::string(what) + ": anchor differs from the G-buffer's; make both from the same scene");
-}
-
 }  // namespace
+
+void require_same_anchor(const std::string& what, Vec3 anchor, const GBuffer& gbuffer) {
+  if (length(anchor - gbuffer.anchor) > kAnchorTolerance * gbuffer.scene_radius)
+    throw Error(ErrorCode::invalid_data, what + ": anchor differs from the G-buffer's; make both from the same scene");
+}
 
 const std::vector<ShadingMethod>& shading_methods() {
   static const std::vector<ShadingMethod> methods = {
