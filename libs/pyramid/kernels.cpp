@@ -10,16 +10,19 @@
 namespace vsgl {
 namespace {
 
-using gpu::Binding;
 using gpu::Buffer;
 using interop::Kernel;
 using interop::Light;
 using interop::Moments;
 
 constexpr std::uint32_t group_size = 64;
-constexpr std::size_t chunk = 262144;  // lights filtered at a time: 36 MiB
+
+interop::uvec2 address_of(const Buffer& buffer) {
+  return {static_cast<interop::uint>(buffer.address()), static_cast<interop::uint>(buffer.address() >> 32)};
+}
 
 struct DrawPush {
+  interop::uvec2 densities_at, kernels_at;
   interop::PointSet points;
   std::uint32_t rule, layers;
   std::int32_t top;
@@ -27,6 +30,7 @@ struct DrawPush {
 };
 
 struct FilterPush {
+  interop::uvec2 kernels_at, moments_at, lights_at;
   std::uint32_t count, layer;
   std::int32_t top;
   float variance_floor;
@@ -39,17 +43,13 @@ Buffer upload_densities(std::span<const DensityPyramid> layers, gpu::Device& dev
   return buffer;
 }
 
-// Filters all kernels of a chunk that lie in `layer`; `lights` keeps those of other layers.
-void filter_layer(const gpu::ComputePipeline& pipeline, std::span<const Kernel> kernels,
-                  std::span<const Moments> pyramid, const FilterPush& push, gpu::Device& device,
-                  Report& report, Buffer& lights) {
-  const std::size_t finest_texels = std::size_t{1} << (2 * push.top);
-  Buffer kernel_buffer = Buffer::from(device, kernels);
-  Buffer finest = Buffer::from(device, pyramid.first(finest_texels));
-  Buffer coarser = Buffer::from(device, pyramid.subspan(finest_texels));
+// Filters the kernels of a chunk that lie in the layer of `pyramid`; `lights` keeps those of other layers.
+void filter_layer(const gpu::ComputePipeline& pipeline, FilterPush push, std::span<const Moments> pyramid,
+                  gpu::Device& device, Report& report) {
+  const Buffer moments = Buffer::from(device, pyramid);
+  push.moments_at = address_of(moments);
   gpu::Commands commands(device);
-  commands.dispatch("filter", pipeline, {kernel_buffer, finest, coarser, lights}, push,
-                    {gpu::groups_for(kernels.size(), group_size), 1, 1});
+  commands.dispatch("filter", pipeline, {}, push, {gpu::groups_for(push.count, group_size), 1, 1});
   commands.submit(report);
 }
 
@@ -58,16 +58,18 @@ void filter_layer(const gpu::ComputePipeline& pipeline, std::span<const Kernel> 
 std::vector<Kernel> draw_kernels(std::span<const DensityPyramid> layers, const KernelParams& params,
                                  gpu::Device& device, Report& report) {
   PhaseTimer timer(report, "draw");
-  DrawPush push{make_point_set(params.points, params.count, params.seed), params.rule,
-                static_cast<std::uint32_t>(layers.size()), layers.front().top(),
-                static_cast<float>(params.scale)};
-  Buffer densities = upload_densities(layers, device);
+  const Buffer densities = upload_densities(layers, device);
   Buffer kernels(device, params.count * sizeof(Kernel));
-  const gpu::ComputePipeline pipeline(device, draw_comp_spv, {Binding::storage, Binding::storage},
-                                      sizeof push);
+  const DrawPush push{address_of(densities),
+                      address_of(kernels),
+                      make_point_set(params.points, params.count, params.seed),
+                      params.rule,
+                      static_cast<std::uint32_t>(layers.size()),
+                      layers.front().top(),
+                      static_cast<float>(params.scale)};
+  const gpu::ComputePipeline pipeline(device, draw_comp_spv, {}, sizeof push);
   gpu::Commands commands(device);
-  commands.dispatch("draw", pipeline, {densities, kernels}, push,
-                    {gpu::groups_for(params.count, group_size), 1, 1});
+  commands.dispatch("draw", pipeline, {}, push, {gpu::groups_for(params.count, group_size), 1, 1});
   commands.submit(report);
   return kernels.download<Kernel>(params.count);
 }
@@ -76,26 +78,23 @@ std::vector<Light> filter_moments(std::span<const Kernel> kernels,
                                   std::span<const std::span<const Moments>> layers, int size,
                                   double variance_floor, gpu::Device& device, Report& report) {
   PhaseTimer timer(report, "filter");
-  const gpu::ComputePipeline pipeline(
-      device, filter_comp_spv, {Binding::storage, Binding::storage, Binding::storage, Binding::storage},
-      sizeof(FilterPush));
-  std::vector<Light> lights;
-  lights.reserve(kernels.size());
-  for (std::size_t first = 0; first < kernels.size(); first += chunk) {
-    const auto part = kernels.subspan(first, std::min(chunk, kernels.size() - first));
-    Buffer filtered(device, part.size() * sizeof(Light));
-    filtered.clear();
-    for (std::uint32_t layer = 0; layer < layers.size(); ++layer) {
-      if (std::none_of(part.begin(), part.end(), [layer](const Kernel& k) { return k.layer == layer; }))
-        continue;
-      const FilterPush push{static_cast<std::uint32_t>(part.size()), layer, pyramid_levels(size) - 1,
-                            static_cast<float>(variance_floor)};
-      filter_layer(pipeline, part, layers[layer], push, device, report, filtered);
-    }
-    const auto done = filtered.download<Light>(part.size());
-    lights.insert(lights.end(), done.begin(), done.end());
+  const gpu::ComputePipeline pipeline(device, filter_comp_spv, {}, sizeof(FilterPush));
+  const Buffer kernel_buffer = Buffer::from(device, kernels);
+  Buffer lights(device, kernels.size() * sizeof(Light));
+  lights.clear();
+  for (std::uint32_t layer = 0; layer < layers.size(); ++layer) {
+    if (std::none_of(kernels.begin(), kernels.end(), [layer](const Kernel& k) { return k.layer == layer; }))
+      continue;
+    const FilterPush push{address_of(kernel_buffer),
+                          {},
+                          address_of(lights),
+                          static_cast<std::uint32_t>(kernels.size()),
+                          layer,
+                          pyramid_levels(size) - 1,
+                          static_cast<float>(variance_floor)};
+    filter_layer(pipeline, push, layers[layer], device, report);
   }
-  return lights;
+  return lights.download<Light>(kernels.size());
 }
 
 }  // namespace vsgl

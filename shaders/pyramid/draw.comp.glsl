@@ -2,13 +2,17 @@
 #version 450
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 #include "interop/sampling.h"
 
 layout(local_size_x = 64) in;
 
-layout(binding = 0, scalar) readonly buffer Density { float density[]; };  // the layers' mean pyramids, one after another
-layout(binding = 1, scalar) writeonly buffer Kernels { Kernel kernels[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Density { float at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Kernels { Kernel at[]; };
 layout(push_constant, scalar) uniform Push {
+  uvec2 densities_at;  // the layers' mean pyramids, one after another
+  uvec2 kernels_at;
   PointSet points;
   uint rule;    // KERNEL_*
   uint layers;
@@ -20,7 +24,7 @@ layout(push_constant, scalar) uniform Push {
 
 float density_at(uint layer, int level, ivec2 texel) {
   const uint layer_texels = pyramid_offset(1 << top, top) + 1u;
-  return density[layer * layer_texels + pyramid_offset(1 << top, level) + uint((texel.y << (top - level)) + texel.x)];
+  return Density(densities_at).at[layer * layer_texels + pyramid_offset(1 << top, level) + uint((texel.y << (top - level)) + texel.x)];
 }
 
 // Texels that the kernel's mean stands for: with M texels in all, M / (N p).
@@ -59,5 +63,5 @@ void main() {
   if (rule == KERNEL_NEWTON || rule == KERNEL_BISECTION)
     p = density_trilinear(kernel.layer, kernel.level, top, kernel.centre);
   kernel.power_scale = power_scale(texels, p);
-  kernels[i] = kernel;
+  Kernels(kernels_at).at[i] = kernel;
 }

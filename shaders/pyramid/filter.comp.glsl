@@ -3,6 +3,8 @@
 #version 450
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 #include "interop/light.h"
 #include "interop/moments.h"
 #include "interop/sampling.h"
@@ -12,28 +14,28 @@
 
 layout(local_size_x = 64) in;
 
-layout(binding = 0, scalar) readonly buffer Kernels { Kernel kernels[]; };
-layout(binding = 1, scalar) readonly buffer Finest { Moments finest[]; };    // level 0
-layout(binding = 2, scalar) readonly buffer Coarser { Moments coarser[]; };  // levels 1 .. top
-layout(binding = 3, scalar) writeonly buffer Lights { Light lights[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Kernels { Kernel at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pyramid { Moments at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Lights { Light at[]; };
 layout(push_constant, scalar) uniform Push {
+  uvec2 kernels_at;
+  uvec2 moments_at;  // the pyramid of `layer`; kernels of other layers are left alone
+  uvec2 lights_at;
   uint count;
-  uint layer;  // whose moments are bound; kernels of other layers are left alone
-  int top;
+  uint layer;
+  int top;               // level of one texel
   float variance_floor;  // m^2
 };
 
-Moments moments_at(int level, ivec2 texel) {
-  const uint row_major = uint((texel.y << (top - level)) + texel.x);
-  if (level == 0) return finest[row_major];
-  return coarser[pyramid_offset(1 << top, level) - pyramid_offset(1 << top, 1) + row_major];
+Moments moments_of(int level, ivec2 texel) {
+  return Pyramid(moments_at).at[pyramid_offset(1 << top, level) + uint((texel.y << (top - level)) + texel.x)];
 }
 
 void add_level(inout MomentsSum sum, vec2 centre, int level, float share) {
   const BilinearTaps taps = bilinear_taps(centre, 1 << (top - level));
   for (int k = 0; k < 4; ++k) {
     const float weight = share * tap_weight(taps, k);
-    if (weight > 0.0) moments_add(sum, moments_at(level, tap_texel(taps, k)), weight);
+    if (weight > 0.0) moments_add(sum, moments_of(level, tap_texel(taps, k)), weight);
   }
 }
 
@@ -55,25 +57,28 @@ SgLobe decode(vec3 power, vec3 mean, float deficit) {
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;
-  if (i >= count || kernels[i].layer != layer) return;
-  const Kernel kernel = kernels[i];
+  if (i >= count) return;
+  const Kernel kernel = Kernels(kernels_at).at[i];
+  if (kernel.layer != layer) return;
   const Moments moments = filter_moments(kernel);
   const SgLobe diffuse = decode(moments.power_diffuse, moments.diffuse_mean, moments.diffuse_deficit);
   const SgLobe specular = decode(moments.power_specular, moments.specular_mean, moments.specular_deficit);
   const float normal_length = length(moments.normal_mean);
 
-  lights[i].position = moments.position;
+  Light light = Lights(lights_at).at[i];
+  light.position = moments.position;
   // [Tokuyoshi 2016, B.2]. Deviation: half of E|y - mean|^2, since the planar Gaussian of variance s has a second moment of 2 s.
-  lights[i].variance = max(0.5 * moments.spread, variance_floor);
-  lights[i].power_diffuse = kernel.power_scale * moments.power_diffuse;
-  lights[i].diffuse_sharpness = diffuse.sharpness;
-  lights[i].diffuse_axis = diffuse.axis;
-  lights[i].power_specular = kernel.power_scale * moments.power_specular;
-  lights[i].specular_sharpness = specular.sharpness;
-  lights[i].specular_axis = specular.axis;
-  lights[i].normal = normal_length > 0.0 ? moments.normal_mean / normal_length : vec3(0.0);
-  lights[i].normal_deficit = moments.normal_deficit;
-  lights[i].level = kernel.level;
-  lights[i].texel = kernel.texel;
-  lights[i].layer = layer;
+  light.variance = max(0.5 * moments.spread, variance_floor);
+  light.power_diffuse = kernel.power_scale * moments.power_diffuse;
+  light.diffuse_sharpness = diffuse.sharpness;
+  light.diffuse_axis = diffuse.axis;
+  light.power_specular = kernel.power_scale * moments.power_specular;
+  light.specular_sharpness = specular.sharpness;
+  light.specular_axis = specular.axis;
+  light.normal = normal_length > 0.0 ? moments.normal_mean / normal_length : vec3(0.0);
+  light.normal_deficit = moments.normal_deficit;
+  light.level = kernel.level;
+  light.texel = kernel.texel;
+  light.layer = layer;
+  Lights(lights_at).at[i] = light;
 }
