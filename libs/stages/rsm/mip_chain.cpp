@@ -1,0 +1,88 @@
+#include "stages/rsm/mip_chain.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace vsgl {
+namespace {
+
+using Texel = std::array<float, 4>;
+
+// IEC 61966-2-1.
+float srgb_decode(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+float srgb_encode(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
+
+struct Level {
+  int width, height;
+  std::vector<Texel> texels;  // linear, 0..1
+
+  const Texel& at(int x, int y) const {
+    const int column = std::min(x, width - 1), row = std::min(y, height - 1);
+    return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
+  }
+};
+
+Level decode(const scene::Texture& texture) {
+  std::array<std::array<float, 256>, 2> tables;  // as it is, and sRGB
+  for (int i = 0; i < 256; ++i) {
+    const float value = static_cast<float>(i) / 255;
+    tables[0][i] = value;
+    tables[1][i] = srgb_decode(value);
+  }
+  Level level{texture.width, texture.height, std::vector<Texel>(texture.rgba.size() / 4)};
+  for (std::size_t i = 0; i < texture.rgba.size(); ++i) {
+    const bool encoded = texture.srgb && i % 4 != 3;
+    level.texels[i / 4][i % 4] = tables[encoded ? 1 : 0][texture.rgba[i]];
+  }
+  return level;
+}
+
+Level halve(const Level& fine) {
+  Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
+  for (int y = 0; y < coarse.height; ++y) {
+    for (int x = 0; x < coarse.width; ++x) {
+      Texel mean;
+      for (std::size_t c = 0; c < 4; ++c) {
+        mean[c] = 0.25f * (fine.at(2 * x, 2 * y)[c] + fine.at(2 * x + 1, 2 * y)[c] + fine.at(2 * x, 2 * y + 1)[c] +
+                           fine.at(2 * x + 1, 2 * y + 1)[c]);
+      }
+      coarse.texels.push_back(mean);
+    }
+  }
+  return coarse;
+}
+
+void append_encoded(const Level& level, bool srgb, std::vector<std::uint32_t>& out) {
+  for (const Texel& texel : level.texels) {
+    std::uint32_t word = 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const float value = srgb && c != 3 ? srgb_encode(texel[c]) : texel[c];
+      word |= static_cast<std::uint32_t>(std::lround(255 * value)) << (8 * c);
+    }
+    out.push_back(word);
+  }
+}
+
+}  // namespace
+
+MipChain build_mip_chain(const scene::Texture& texture) {
+  const std::size_t expected = std::size_t{4} * static_cast<std::size_t>(texture.width) *
+                               static_cast<std::size_t>(texture.height);
+  if (expected == 0 || texture.rgba.size() != expected) {
+    throw Error(ErrorCode::texture_unreadable, "texture \"" + texture.name + "\": " +
+                                                   std::to_string(texture.rgba.size()) + " bytes for " +
+                                                   std::to_string(texture.width) + "x" +
+                                                   std::to_string(texture.height) + " texels");
+  }
+  MipChain chain;
+  for (Level level = decode(texture);; level = halve(level)) {
+    append_encoded(level, texture.srgb, chain.texels);
+    ++chain.levels;
+    if (level.width == 1 && level.height == 1) return chain;
+  }
+}
+
+}  // namespace vsgl
