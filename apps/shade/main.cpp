@@ -1,0 +1,76 @@
+// shade --gbuffer gbuffer.exr --lights lights.exr [--ism ism.exr] [--rsm rsm.exr] -o indirect.exr: radiance per pixel.
+
+#include <optional>
+
+#include "base/tool.h"
+#include "stages/shading/shading.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  fs::path gbuffer, lights, ism, rsm, output;
+  vsgl::ShadingParams params;
+};
+
+std::string list_of_methods() {
+  std::string text;
+  for (const auto& method : vsgl::shading_methods())
+    text += (text.empty() ? "" : "\n") + method.name + std::string(11 - method.name.size(), ' ') + method.summary;
+  return text;
+}
+
+void declare(vsgl::Tool& tool, Arguments& a) {
+  CLI::App& app = tool.app();
+  std::vector<std::string> methods;
+  for (const auto& method : vsgl::shading_methods()) methods.push_back(method.name);
+  tool.input("--gbuffer", a.gbuffer, "pixels to shade")->required();
+  tool.input("--lights", a.lights, "virtual lights")->required();
+  tool.input("--ism", a.ism, "shadow maps of the lights (default: no shadows)");
+  tool.input("--rsm", a.rsm, "reflective shadow map: adds its direct light as a layer");
+  tool.output("-o,--output", a.output, "radiance to write")->required();
+  app.add_option("--method", a.params.method, "how lights are evaluated; see --list-methods")
+      ->check(CLI::IsMember(methods));
+  app.add_option("--clamp", a.params.clamp, "vpl: smallest distance, as a fraction of the scene's radius; 0: none")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--specular-lobe", a.params.specular_lobe,
+                 "auto: the most accurate per normal distribution; asg: anisotropic SG, as the papers print it")
+      ->check(CLI::IsMember({"auto", "asg"}));
+  app.add_option("--cbr", a.params.cbr, "consistent bias reduction: threshold of the sharpness ratio; 0: off")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_flag_callback(
+      "--list-methods", [] { throw CLI::CallForVersion(list_of_methods(), 0); }, "print the methods and exit");
+}
+
+vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
+  const auto read = [&](const char* phase, auto reader, const fs::path& path) {
+    const vsgl::PhaseTimer timer(report, phase);
+    return reader(path);
+  };
+  const vsgl::GBuffer gbuffer = read("read gbuffer", vsgl::read_gbuffer, a.gbuffer);
+  const vsgl::Lights lights = read("read lights", vsgl::read_lights, a.lights);
+  std::optional<vsgl::ShadowMaps> maps;
+  if (!a.ism.empty()) maps = read("read ism", vsgl::read_shadow_maps, a.ism);
+  a.params.skip = !tool.common().no_skip;
+
+  vsgl::gpu::Device device({.device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
+  report.count("device", device.info().name);
+  vsgl::Indirect image = vsgl::shade(gbuffer, lights, maps ? &*maps : nullptr, a.params, device, report);
+  if (!a.rsm.empty()) vsgl::shade_direct(gbuffer, read("read rsm", vsgl::read_rsm, a.rsm), device, report, image);
+
+  const vsgl::PhaseTimer timer(report, "write");
+  vsgl::write(outputs.add(a.output), image, tool.provenance());
+  return vsgl::Exit::ok;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  vsgl::Tool tool("shade", "computes indirect radiance per pixel from virtual lights");
+  Arguments arguments;
+  declare(tool, arguments);
+  return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {
+    return run(tool, arguments, report, outputs);
+  });
+}
