@@ -27,8 +27,8 @@ void splat(uint first_texel, vec3 v, vec3 n, float d, float radius, float near_d
   vec2 e = hemi_octahedral_encode(v);
   vec2 place = (0.5 * e + 0.5) * float(tile);
   float texel_width = d * sqrt(hemi_octahedral_solid_angle(e, float(tile)));  // m, at the point
-  // The map is not conformal: a circle on the sphere can reach 1.3 times as far in the square.
-  float reach = clamp(1.3 * radius / texel_width, 0.0, 0.5 * float(SPLAT_MAX_WIDTH));
+  // The search square fits a disk seen face on, at the mean width of a texel here.
+  float reach = clamp(radius / texel_width, 0.0, 0.5 * float(SPLAT_MAX_WIDTH));
   ivec2 own = clamp(ivec2(place), 0, tile - 1);
   ivec2 first = clamp(ivec2(ceil(place - reach - 0.5)), ivec2(0), own);
   ivec2 last = clamp(ivec2(floor(place + reach - 0.5)), own, ivec2(tile - 1));
