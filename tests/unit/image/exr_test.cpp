@@ -221,14 +221,28 @@ TEST(Exr, CorruptSizeIsAnError) {
   ASSERT_NE(window, std::string::npos);
   const std::size_t max_x =
       window + std::string("dataWindow").size() + 1 + std::string("box2i").size() + 1 + 4 + 8;
-  for (std::uint32_t size : {60000u, 16777215u, 2147483647u, 4294967295u}) {
+  for (std::uint32_t size : {9000u, 60000u, 16777215u, 2147483647u, 4294967295u}) {
     std::string broken = whole;
     std::memcpy(broken.data() + max_x, &size, 4);
     std::memcpy(broken.data() + max_x + 4, &size, 4);
     write_bytes(folder / "b.exr", broken);
     SCOPED_TRACE(size);
     expect_error(ErrorCode::exr_unreadable, {"b.exr"}, [&] { read_exr(folder / "b.exr"); });
+    if (size < (1u << 16))  // beyond that OpenEXR objects first
+      expect_error(ErrorCode::exr_unreadable, {"claims more pixels"}, [&] { read_exr(folder / "b.exr"); });
   }
+}
+
+// A writer that died leaves zeros in the table of offsets.
+TEST(Exr, UnfinishedFileIsAnError) {
+  const TemporaryFolder folder;
+  write_exr(folder / "a.exr", ExrFile{{scan_line_part("a", 40, 40)}, ""});
+  std::string bytes = bytes_of(folder / "a.exr");
+  const std::size_t rows = 40 * (8 + 3 * 40 * 4);  // row, length and three channels each
+  for (std::size_t i = 1; i <= 8; ++i) bytes[bytes.size() - rows - i] = 0;
+  write_bytes(folder / "b.exr", bytes);
+  expect_error(ErrorCode::exr_unreadable, {"b.exr", "pixels are missing"},
+               [&] { read_exr(folder / "b.exr"); });
 }
 
 // Any single corrupt byte of the header region ends in an error of ours or in a readable file, never in a
