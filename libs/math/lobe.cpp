@@ -34,6 +34,7 @@ LobeMoments lobe_encode(Vec3 axis, double sharpness) {
 }
 
 double lobe_sharpness(double r, double deficit) {
+  if (r == 0) return 0;
   return deficit > 0 ? std::min(r * (2 + deficit) / deficit, sharpness_max) : sharpness_max;
 }
 

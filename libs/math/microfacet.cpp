@@ -10,7 +10,7 @@ using interop::NDF_BECKMANN, interop::NDF_GGX, interop::NDF_PHONG;
 constexpr double pi = std::numbers::pi;
 
 double ggx_d(double alpha2, double sin2, double cos2) {
-  const double q = sin2 / alpha2 + cos2;
+  const double q = std::max(sin2 / alpha2 + cos2, 1.0);
   return 1 / (pi * alpha2 * q * q);
 }
 

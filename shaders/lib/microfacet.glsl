@@ -15,7 +15,7 @@ const float COS_MIN = 1e-4;
 // [Walter 2007, Eq. (33)] GGX density of normals at an angle of squared sine and cosine sin2, cos2 to the mean normal, 1/sr.
 // Deviation: sin2 / alpha^2 + cos2 in place of cos2 (alpha^2 - 1) + 1, which loses all digits at small alpha.
 float ggx_d(float alpha2, float sin2, float cos2) {
-  float q = sin2 + alpha2 * cos2;
+  float q = max(sin2 + alpha2 * cos2, alpha2);
   return alpha2 / (PI * q * q);
 }
 

@@ -20,11 +20,14 @@ MeanSpread mean_spread_start() {
 // Law of total variance in pairs (Chan, Golub and LeVeque 1983): exact, never negative, nothing cancels. Weight 0 changes nothing.
 void mean_spread_add(inout MeanSpread a, float weight, vec3 mean, float spread) {
   a.reference = a.weight > 0.0 ? a.reference : mean;
-  a.weight += weight;
-  float t = a.weight > 0.0 ? weight / a.weight : 0.0;
+  float total = a.weight + weight;
+  float inverse = total > 0.0 ? 1.0 / total : 0.0;
+  float before = a.weight * inverse;
+  float now = weight * inverse;
   vec3 d = (mean - a.reference) - a.offset;
-  a.offset += t * d;
-  a.spread += t * ((spread - a.spread) + (1.0 - t) * dot(d, d));
+  a.weight = total;
+  a.offset += now * d;
+  a.spread = before * a.spread + now * spread + before * now * dot(d, d);
 }
 
 vec3 mean_spread_mean(MeanSpread a) {

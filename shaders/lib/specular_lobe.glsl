@@ -74,7 +74,7 @@ struct SpecularFilter {
 // Deviation: 1 / m_par and 1 / m_perp in a form free of overflow for sharpness 0..2^40 and alpha = 1.
 SpecularFilter specular_filter(SpecularReceiver r, vec3 light, float sharpness) {
   float c2 = r.cos_view * r.cos_view;
-  float k = 1.0 - r.alpha2 + 1e-20;
+  float k = max(1.0 - r.alpha2, 1e-20);
   float spread_par = 2.0 * sharpness;
   float spread_perp = spread_par * c2;
   float inverse_par = (spread_par + k) / (spread_par * r.alpha2 + k);

@@ -1,0 +1,266 @@
+#include <cmath>
+
+#include "math/frame.h"
+#include "math/octahedral.h"
+#include "math/specular_lobe.h"
+#include "shader_library.h"
+#include "spirv/test/library/frame.comp.glsl.h"
+#include "spirv/test/library/microfacet.comp.glsl.h"
+#include "spirv/test/library/octahedral.comp.glsl.h"
+#include "spirv/test/library/specular_lobe.comp.glsl.h"
+
+namespace vsgl::test {
+namespace {
+
+using interop::NDF_BECKMANN, interop::NDF_GGX, interop::NDF_PHONG;
+
+LibraryFile frame() {
+  const auto twin = [](Arguments& a) {
+    const Frame f = frame_about(a.take3());
+    return Values() << f.x << f.y << f.z;
+  };
+  return {"frame", frame_comp_spv, {{"frame_about", directions(), twin, {1e-6, 3e-7}}}};
+}
+
+LibraryFile octahedral() {
+  const std::vector<Row> squares =
+      combinations({numbers({-0.98, -0.3, 0, 0.5, 1}), numbers({-1, -0.01, 0, 0.6, 0.99})});
+  const auto square = [](Arguments& a) {
+    const double x = a.take();
+    return Vec2{x, a.take()};
+  };
+  return {"octahedral",
+          octahedral_comp_spv,
+          {{"hemi_octahedral_encode",
+            upper_directions(),
+            [](Arguments& a) {
+              const Vec2 e = hemi_octahedral_encode(a.take3());
+              return Values() << e.x << e.y;
+            },
+            {0, 3e-7}},
+           {"hemi_octahedral_point",
+            squares,
+            [=](Arguments& a) { return Values() << hemi_octahedral_point(square(a)); },
+            {0, 3e-7}},
+           {"hemi_octahedral_decode",
+            squares,
+            [=](Arguments& a) { return Values() << hemi_octahedral_decode(square(a)); },
+            {0, 3e-7}},
+           {"hemi_octahedral_solid_angle",
+            combinations({squares, numbers({16, 64})}),
+            [=](Arguments& a) {
+              const Vec2 e = square(a);
+              return hemi_octahedral_solid_angle(e, a.take());
+            },
+            {1e-6, 0}}}};
+}
+
+std::vector<Row> ndfs() {
+  return words({NDF_GGX, NDF_BECKMANN, NDF_PHONG});
+}
+std::vector<Row> squared_alphas() {
+  return numbers({1e-6, 1e-4, 0.01, 0.25, 1});
+}
+
+// sin2 and cos2 of the same angle; sin2 within a few lobe widths of each alpha.
+std::vector<Row> squared_angles() {
+  std::vector<Row> rows;
+  for (const double sin2 : {0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.03, 0.3, 0.499, 0.501, 0.9, 1.0})
+    rows.push_back({static_cast<float>(sin2), static_cast<float>(1 - sin2)});
+  return rows;
+}
+
+// Twin of a function of two or three numbers.
+auto two(double (*f)(double, double)) {
+  return [f](Arguments& a) {
+    const double x = a.take();
+    return f(x, a.take());
+  };
+}
+auto three(double (*f)(double, double, double)) {
+  return [f](Arguments& a) {
+    const double x = a.take(), y = a.take();
+    return f(x, y, a.take());
+  };
+}
+
+// Normal, view: upright, oblique, grazing, below the horizon, behind.
+std::vector<Row> normals_and_views() {
+  std::vector<Row> rows;
+  const Vec3 tilted = normalise(Vec3{0.4, -0.2, 0.8});
+  for (const Vec3 view : {Vec3{0, 0, 1}, Vec3{0.6, 0, 0.8}, Vec3{0.5, 0.7, 0.2}, Vec3{1, 0, 1e-4},
+                          Vec3{1, 0, -0.2}, Vec3{0, 0, -1}})
+    rows.push_back(direction(view));
+  std::vector<Row> all = combinations({{direction({0, 0, 1})}, rows});
+  for (const Row& row : combinations({{direction(tilted)}, {direction(tilted), direction({0.1, 0.3, 1})}}))
+    all.push_back(row);
+  return all;
+}
+
+// Views that are above the horizon only, where the tilted frame's rounding is small against the lobe.
+std::vector<Row> upright_views() {
+  std::vector<Row> rows;
+  for (const Vec3 view : {Vec3{0, 0, 1}, Vec3{0.6, 0, 0.8}, Vec3{0.5, 0.7, 0.2}, Vec3{-0.9, 0.1, 0.04}})
+    rows.push_back(direction(view));
+  return combinations({{direction({0, 0, 1}), direction({0, 0.1, 1})}, rows});
+}
+
+LibraryFile microfacet() {
+  const std::vector<Row> slopes =
+      combinations({squared_alphas(), numbers({-0.5, 0, 1e-5, 1e-3, 0.1, 0.5, 0.99, 1})});
+  const std::vector<Row> densities = combinations({squared_alphas(), squared_angles()});
+  const std::vector<Row> lights = directions();
+  const std::vector<Row> alphas = numbers({1e-3, 0.02, 0.3, 1});
+  const auto lobe = [](Arguments& a) {
+    const std::uint32_t ndf = a.take_word();
+    const double alpha = a.take();
+    const Vec3 normal = a.take3();
+    const SgLobe l = specular_lobe(ndf, alpha, normal, a.take3());
+    return Values() << l.axis << l.sharpness;
+  };
+  return {"microfacet",
+          microfacet_comp_spv,
+          {{"ggx_d", densities, three(ggx_d), {1e-6, 0}},
+           {"beckmann_d", densities, three(beckmann_d), {1e-4, 1e-30}},
+           {"phong_d", densities, three(phong_d), {1e-4, 1e-30}},
+           {"ndf_density",
+            combinations({ndfs(), densities}),
+            [](Arguments& a) {
+              const std::uint32_t ndf = a.take_word();
+              const double alpha2 = a.take(), sin2 = a.take();
+              return ndf_density(ndf, alpha2, sin2, a.take());
+            },
+            {1e-4, 1e-30}},
+           {"ggx_slope_cosine", slopes, two(ggx_slope_cosine), {1e-6, 0}},
+           {"ggx_lambda", slopes, two(ggx_lambda), {1e-6, 3e-7}},
+           {"beckmann_lambda", slopes, two(beckmann_lambda), {1e-4, 1e-6}},
+           {"smith_lambda",
+            combinations({ndfs(), slopes}),
+            [](Arguments& a) {
+              const std::uint32_t ndf = a.take_word();
+              const double alpha2 = a.take();
+              return smith_lambda(ndf, alpha2, a.take());
+            },
+            {1e-4, 1e-6}},
+           {"ndf_sharpness",
+            combinations({ndfs(), alphas}),
+            [](Arguments& a) {
+              const std::uint32_t ndf = a.take_word();
+              return ndf_sharpness(ndf, a.take());
+            },
+            {1e-6, 1e-6}},
+           {"specular_brdf_cos",
+            combinations({ndfs(), alphas, normals_and_views(), lights}),
+            [](Arguments& a) {
+              const std::uint32_t ndf = a.take_word();
+              const double alpha = a.take();
+              const Vec3 normal = a.take3(), view = a.take3();
+              return specular_brdf_cos(ndf, alpha, normal, view, a.take3());
+            },
+            {2e-3, 1e-6}},
+           {"ggx_brdf_cos",
+            combinations({squared_alphas(), normals_and_views(), lights}),
+            [](Arguments& a) {
+              const double alpha2 = a.take();
+              const Vec3 normal = a.take3(), view = a.take3();
+              return ggx_brdf_cos(alpha2, normal, view, a.take3());
+            },
+            {2e-3, 1e-6}},
+           {"dominant_normal",
+            combinations({squared_alphas(), normals_and_views()}),
+            [](Arguments& a) {
+              const double alpha2 = a.take();
+              const Vec3 normal = a.take3();
+              return Values() << dominant_normal(alpha2, normal, a.take3());
+            },
+            {1e-6, 1e-6}},
+           {"specular_lobe", combinations({ndfs(), alphas, normals_and_views()}), lobe, {1e-5, 1e-6}}}};
+}
+
+SpecularReceiver take_receiver(Arguments& a) {
+  const std::uint32_t ndf = a.take_word();
+  const double alpha = a.take();
+  const Vec3 normal = a.take3();
+  return specular_receiver(ndf, alpha, normal, a.take3());
+}
+
+Values values_of(const SpecularReceiver& r) {
+  return Values() << r.tangent << r.bitangent << r.normal << r.sin_view << r.cos_view << r.alpha2 << r.across
+                  << r.alpha2 * r.mirror.x << r.alpha2 * r.mirror.z << r.view_lambda;
+}
+
+auto value(double (*method)(const SpecularReceiver&, Vec3, double)) {
+  return [method](Arguments& a) {
+    const SpecularReceiver r = take_receiver(a);
+    const Vec3 axis = a.take3();
+    return method(r, axis, a.take());
+  };
+}
+
+LibraryFile specular_lobe_file() {
+  // Alpha 1e-3 resolves directions only to a few hundredths of a lobe in float32: finite is all it can be
+  // asked to be.
+  const std::vector<Row> receivers = combinations({ndfs(), numbers({0.02, 0.1, 0.5, 1}), upright_views()});
+  const std::vector<Row> lights = combinations({directions(), numbers({0, 1e-6, 0.5, 3, 5, 20, 300, 1e4})});
+  const std::vector<Row> calls = combinations({receivers, lights});
+  const std::vector<Row> wild =
+      combinations({ndfs(), numbers({1e-3, 0.5, 1}), normals_and_views(), directions(), sharpnesses()});
+  const auto local = [](Arguments& a, const SpecularReceiver& r) { return specular_local(r, a.take3()); };
+  const Tolerance tolerance{2e-3, 1e-5};
+  return {"specular_lobe",
+          specular_lobe_comp_spv,
+          {{"specular_receiver",
+            combinations({ndfs(), numbers({1e-3, 0.1, 1}), normals_and_views()}),
+            [](Arguments& a) { return values_of(take_receiver(a)); },
+            {1e-4, 1e-5}},
+           {"specular_local",
+            combinations({{receivers[0]}, directions()}),
+            [=](Arguments& a) { return Values() << local(a, take_receiver(a)); },
+            {0, 3e-7}},
+           {"specular_horizon",
+            calls,
+            [=](Arguments& a) {
+              const SpecularReceiver r = take_receiver(a);
+              const Vec3 light = local(a, r);
+              const SpecularHorizon h = specular_horizon(r, light, a.take());
+              return Values() << h.visible << h.visible * h.cosine;
+            },
+            {2e-3, 1e-4}},
+           {"specular_filter",
+            calls,
+            [=](Arguments& a) {
+              const SpecularReceiver r = take_receiver(a);
+              const Vec3 light = local(a, r);
+              const SpecularFilter f = specular_filter(r, light, a.take());
+              return Values() << f.density << f.slope_cosine;
+            },
+            {1e-3, 1e-6}},
+           {"specular_vmf_filtered", calls, value(specular_vmf_filtered), tolerance, wild},
+           {"specular_vmf_ggx", calls, value(specular_vmf_ggx), tolerance, wild},
+           {"specular_vmf_gaussian", calls, value(specular_vmf_gaussian), tolerance, wild},
+           {"specular_vmf", calls, value(specular_vmf), tolerance, wild},
+           {"specular_asg_convolved", calls,
+            [=](Arguments& a) {
+              const SpecularReceiver r = take_receiver(a);
+              const Vec3 light = local(a, r);
+              return specular_asg_convolved(r, light, a.take());
+            },
+            tolerance},
+           {"specular_coefficient",
+            combinations({receivers, numbers({-0.1, 0, 1e-4, 0.3, 1})}),
+            [](Arguments& a) {
+              const SpecularReceiver r = take_receiver(a);
+              return specular_coefficient(r, a.take());
+            },
+            {2e-4, 1e-5}},
+           {"specular_vmf_asg", calls, value(specular_vmf_asg), tolerance, wild},
+           {"specular_vmf_asg_product", calls, value(specular_vmf_asg_product), tolerance, wild}}};
+}
+
+}  // namespace
+
+std::vector<LibraryFile> surface_files() {
+  return {frame(), octahedral(), microfacet(), specular_lobe_file()};
+}
+
+}  // namespace vsgl::test

@@ -1,0 +1,200 @@
+#include "shader_library.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "gpu/compute.h"
+
+namespace vsgl::test {
+
+std::vector<Row> combinations(std::initializer_list<std::vector<Row>> lists) {
+  std::vector<Row> rows{{}};
+  for (const std::vector<Row>& list : lists) {
+    std::vector<Row> longer;
+    for (const Row& head : rows)
+      for (const Row& tail : list) {
+        longer.push_back(head);
+        longer.back().insert(longer.back().end(), tail.begin(), tail.end());
+      }
+    rows = std::move(longer);
+  }
+  return rows;
+}
+
+std::vector<Row> numbers(std::initializer_list<double> values) {
+  std::vector<Row> rows;
+  for (const double x : values) rows.push_back({static_cast<float>(x)});
+  return rows;
+}
+
+std::vector<Row> words(std::initializer_list<std::uint32_t> values) {
+  std::vector<Row> rows;
+  for (const std::uint32_t x : values) rows.push_back({word(x)});
+  return rows;
+}
+
+std::vector<Row> powers(double low, double high, double factor) {
+  std::vector<Row> rows;
+  for (double x = low; x <= high; x *= factor) rows.push_back({static_cast<float>(x)});
+  return rows;
+}
+
+std::vector<Row> sharpnesses() {
+  return numbers(
+      {0, 1e-20, 1e-6, 1e-3, 0.03, 0.07, 0.4, 0.6, 1, 2.2925, 5, 16, 100, 3e3, 1e5, 1e8, 1099511627776.0});
+}
+
+Row direction(Vec3 v) {
+  v = normalise(v);
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+std::vector<Row> directions() {
+  std::vector<Row> rows = upper_directions();
+  for (const Vec3 v :
+       {Vec3{0, 0, -1}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}, Vec3{-0.3, 0.5, -0.7}, Vec3{1e-4, 2e-4, -1}})
+    rows.push_back(direction(v));
+  return rows;
+}
+
+std::vector<Row> upper_directions() {
+  std::vector<Row> rows;
+  for (const Vec3 v : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0.3, -0.5, 0.7},
+                       Vec3{-0.9, 0.1, 0.2}, Vec3{1e-4, 0, 1}, Vec3{1, 1, 1e-3}})
+    rows.push_back(direction(v));
+  return rows;
+}
+
+namespace {
+
+struct Push {
+  std::uint32_t rows, argument_stride, result_stride;
+};
+
+std::vector<LibraryFile> library_files() {
+  std::vector<LibraryFile> files;
+  for (auto topic : {gaussian_files, surface_files, light_files, sampling_files})
+    for (LibraryFile& file : topic()) files.push_back(std::move(file));
+  return files;
+}
+
+// Results of all rows, `stride` words each.
+std::vector<float> dispatch(gpu::Device& device, const LibraryFile& file, std::uint32_t number,
+                            const std::vector<Row>& rows, std::size_t stride) {
+  std::vector<float> arguments;
+  for (const Row& row : rows) arguments.insert(arguments.end(), row.begin(), row.end());
+  arguments.insert(arguments.end(), file.appendix.begin(), file.appendix.end());
+  gpu::Buffer in = gpu::Buffer::from(device, arguments);
+  gpu::Buffer out(device, rows.size() * stride * sizeof(float));
+  const gpu::ComputePipeline pipeline(device, file.spirv, {gpu::Binding::storage, gpu::Binding::storage},
+                                      sizeof(Push), {{0, number}});
+  const Push push{static_cast<std::uint32_t>(rows.size()), static_cast<std::uint32_t>(rows[0].size()),
+                  static_cast<std::uint32_t>(stride)};
+  Report report;
+  gpu::Commands commands(device);
+  commands.dispatch("call", pipeline, {in, out}, push, {gpu::groups_for(rows.size(), 64), 1, 1});
+  commands.submit(report);
+  return out.download<float>(rows.size() * stride);
+}
+
+std::string describe(const Row& row) {
+  std::ostringstream text;
+  text.precision(9);
+  for (const float x : row) text << x << " ";
+  return text.str();
+}
+
+// In units of what is allowed; infinite if either is not finite.
+double error_of(float result, const Values::Value& twin, const Tolerance& tolerance) {
+  if (twin.exact) return std::bit_cast<std::uint32_t>(result) == twin.value ? 0 : 2;
+  const double difference = std::abs(static_cast<double>(result) - twin.value);
+  if (!std::isfinite(difference)) return std::numeric_limits<double>::infinity();
+  return difference == 0 ? 0 : difference / (tolerance.relative * twin.scale + tolerance.absolute);
+}
+
+// Reports the worst value of a call only.
+void compare_call(gpu::Device& device, const LibraryFile& file, std::uint32_t number) {
+  const LibraryCall& call = file.calls[number];
+  ASSERT_FALSE(call.rows.empty()) << call.name;
+  std::vector<Values> expected;
+  for (const Row& row : call.rows) {
+    ASSERT_EQ(row.size(), call.rows[0].size()) << call.name;
+    Arguments arguments{row};
+    expected.push_back(call.twin(arguments));
+  }
+  const std::size_t stride = expected[0].size();
+  const std::vector<float> results = dispatch(device, file, number, call.rows, stride);
+  double worst = 0;
+  std::string where;
+  for (std::size_t i = 0; i < call.rows.size(); ++i)
+    for (std::size_t j = 0; j < stride; ++j) {
+      const double error = error_of(results[i * stride + j], expected[i][j], call.tolerance);
+      if (error <= worst) continue;
+      worst = error;
+      std::ostringstream text;
+      text.precision(9);
+      text << "value " << j << " is " << results[i * stride + j] << ", twin " << expected[i][j].value
+           << ", of " << describe(call.rows[i]);
+      where = text.str();
+    }
+  EXPECT_LE(worst, 1) << file.name << ": " << call.name << ": " << where;
+  if (call.wild.empty()) return;
+  const std::vector<float> wild = dispatch(device, file, number, call.wild, stride);
+  const auto bad = std::find_if_not(wild.begin(), wild.end(), [](float x) { return std::isfinite(x); });
+  if (bad != wild.end())
+    ADD_FAILURE() << call.name << ": not finite, of "
+                  << describe(call.wild[static_cast<std::size_t>(bad - wild.begin()) / stride]);
+}
+
+class ShaderLibrary : public testing::TestWithParam<LibraryFile> {};
+
+TEST_P(ShaderLibrary, MatchesItsTwin) {
+  gpu::Device device({});
+  for (std::uint32_t i = 0; i < GetParam().calls.size(); ++i) compare_call(device, GetParam(), i);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, ShaderLibrary, testing::ValuesIn(library_files()),
+                         [](const auto& file) { return file.param.name; });
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  EXPECT_TRUE(stream) << path;
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> matches(const std::string& text, const char* pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator i(text.begin(), text.end(), regex), end; i != end; ++i) found.push_back((*i)[1]);
+  return found;
+}
+
+TEST(ShaderLibraryCoverage, EveryFunctionIsDispatched) {
+  const std::filesystem::path shaders = std::filesystem::path(VSGL_SOURCE_DIR) / "shaders";
+  std::map<std::string, std::size_t> calls;
+  for (const LibraryFile& file : library_files()) calls[file.name] = file.calls.size();
+  std::size_t functions = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(shaders / "lib")) {
+    const std::string name = entry.path().stem().string();
+    const std::vector<std::string> defined = matches(read(entry.path()), R"((?:^|\n)\w+ (\w+)\([^;{]*\) \{)");
+    if (defined.empty()) continue;
+    functions += defined.size();
+    ASSERT_TRUE(calls.contains(name)) << "shaders/lib/" << name << ".glsl has no test";
+    const std::string test = read(shaders / "test" / "library" / (name + ".comp.glsl"));
+    for (const std::string& function : defined)
+      EXPECT_TRUE(std::regex_search(test, std::regex("\\b" + function + "\\(")))
+          << function << " is never called";
+    EXPECT_EQ(std::max<std::size_t>(matches(test, R"((case) \d+u:)").size(), 1), calls[name]) << name;
+  }
+  EXPECT_GT(functions, 50u);
+}
+
+}  // namespace
+}  // namespace vsgl::test
