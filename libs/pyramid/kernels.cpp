@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gpu/address.h"
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
 #include "spirv/pyramid/draw.comp.glsl.h"
@@ -16,10 +17,6 @@ using interop::Light;
 using interop::Moments;
 
 constexpr std::uint32_t group_size = 64;
-
-interop::uvec2 address_of(const Buffer& buffer) {
-  return {static_cast<interop::uint>(buffer.address()), static_cast<interop::uint>(buffer.address() >> 32)};
-}
 
 struct DrawPush {
   interop::uvec2 densities_at, kernels_at;

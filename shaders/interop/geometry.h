@@ -89,12 +89,6 @@ struct BakePush {
   uvec2 bake_at;
 };
 
-// Push constants of one mip step: `size` texels a side of the coarser level.
-struct MergePush {
-  uvec2 fine_at, coarse_at;
-  uint size;
-};
-
 // Largest correction of a texel's power for the normal map, see shaders/rsm/moments.comp.glsl.
 VSGL_CONST float KAPPA_MAX = 8.0f;
 

@@ -24,5 +24,12 @@ struct Moments {
 };
 VSGL_CHECK_SIZE(Moments, 104)
 
+// Push constants of one step of their pyramid: device addresses of both levels; `size` texels a side of the coarser one.
+struct MergePush {
+  uvec2 fine_at, coarse_at;
+  uint size;
+};
+VSGL_CHECK_SIZE(MergePush, 20)
+
 VSGL_INTEROP_END
 #endif

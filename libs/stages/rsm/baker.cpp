@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "base/error.h"
+#include "gpu/address.h"
 #include "gpu/compute.h"
 #include "gpu/raster.h"
 #include "interop/geometry.h"
 #include "interop/model.h"
-#include "spirv/rsm/merge.comp.glsl.h"
+#include "pyramid/moment_pyramid.h"
 #include "spirv/rsm/moments.comp.glsl.h"
 #include "spirv/rsm/surface.comp.glsl.h"
 #include "spirv/rsm/visibility.frag.glsl.h"
@@ -29,30 +30,10 @@ std::array<std::uint32_t, 3> groups_over(std::uint32_t width, std::uint32_t heig
   return {gpu::groups_for(width, kGroup), gpu::groups_for(height, kGroup), 1};
 }
 
-std::size_t texels(int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>(size); }
-
 bool is_lit(const interop::Surface& surface) { return surface.id != interop::NO_INSTANCE; }
 
 double luminance_of(interop::vec3 c) {
   return luminance({static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)});
-}
-
-// The pyramid of one layer, a buffer per level.
-std::vector<gpu::Buffer> allocate_pyramid(gpu::Device& device, int size) {
-  std::vector<gpu::Buffer> levels;
-  for (int level = 0; level < pyramid_levels(size); ++level) {
-    levels.emplace_back(device, texels(size >> level) * sizeof(interop::Moments));
-  }
-  return levels;
-}
-
-void download_pyramid(std::vector<gpu::Buffer>& levels, int size, std::vector<interop::Moments>& pyramid) {
-  pyramid.resize(pyramid_texels(size));
-  const std::span<interop::Moments> all(pyramid);
-  for (int level = 0; level < pyramid_levels(size); ++level) {
-    levels[static_cast<std::size_t>(level)].read(
-        0, std::as_writable_bytes(all.subspan(pyramid_offset(size, level), texels(size >> level))));
-  }
 }
 
 void report_layer(const RsmLayer& layer, std::uint32_t clamped, Report& report) {
@@ -93,14 +74,14 @@ struct Baker::Impl {
   void draw(const interop::Bake& job, Frame& frame);
   std::vector<interop::Surface> download_surface(Frame& frame);
   RsmLayer layer(const LightView& light, const interop::View& view, Frame& frame,
-                 const gpu::ComputePipeline& moments_pipeline, std::vector<gpu::Buffer>& pyramid);
+                 const gpu::ComputePipeline& moments_pipeline, MomentPyramid& pyramid);
 
   const scene::Scene& scene;
   gpu::Device& device;
   Report& report;
   DeviceScene geometry;
   gpu::RasterPipeline visibility_pipeline;
-  gpu::ComputePipeline surface_pipeline, merge_pipeline;
+  gpu::ComputePipeline surface_pipeline;
   gpu::Commands commands;
   gpu::Buffer bake, clamped;
   interop::BakePush push;
@@ -122,7 +103,6 @@ Baker::Impl::Impl(const scene::Scene& s, gpu::Device& d, Report& r)
       geometry(upload(s, d, r)),
       visibility_pipeline(d, visibility_vert_spv, visibility_frag_spv, {kVisibilityFormat}, sizeof(interop::BakePush)),
       surface_pipeline(d, surface_comp_spv, {}, sizeof(interop::BakePush)),
-      merge_pipeline(d, merge_comp_spv, {}, sizeof(interop::MergePush)),
       commands(d),
       bake(d, sizeof(interop::Bake)),
       clamped(d, sizeof(interop::uint)),
@@ -156,25 +136,19 @@ std::vector<interop::Surface> Baker::Impl::download_surface(Frame& frame) {
 }
 
 RsmLayer Baker::Impl::layer(const LightView& light, const interop::View& view, Frame& frame,
-                            const gpu::ComputePipeline& moments_pipeline, std::vector<gpu::Buffer>& pyramid) {
+                            const gpu::ComputePipeline& moments_pipeline, MomentPyramid& pyramid) {
   interop::Bake job = describe(view, frame);
-  job.moments_at = address_of(pyramid.front());
+  job.moments_at = address_of(pyramid.finest());
   clamped.clear();
   draw(job, frame);
   commands.dispatch("moments", moments_pipeline, {}, push, groups_over(frame.stride, frame.rows));
-  for (std::size_t level = 1; level < pyramid.size(); ++level) {
-    const std::uint32_t side = frame.stride >> level;
-    commands.dispatch("pyramid", merge_pipeline, {},
-                      interop::MergePush{address_of(pyramid[level - 1]), address_of(pyramid[level]), side},
-                      groups_over(side, side));
-  }
+  pyramid.merge(commands);
   {
     const PhaseTimer timer(report, "reflect");
     commands.submit(report);
   }
   const PhaseTimer timer(report, "download");
-  RsmLayer out{light.name, light.light, download_surface(frame), {}};
-  download_pyramid(pyramid, static_cast<int>(frame.stride), out.pyramid);
+  RsmLayer out{light.name, light.light, download_surface(frame), pyramid.download()};
   report_layer(out, clamped.download<interop::uint>(1).front(), report);
   return out;
 }
@@ -218,7 +192,7 @@ Rsm Baker::rsm(const RsmParams& params) {
                                               {{0, consistent}});
   const auto side = static_cast<std::uint32_t>(out.size);
   Frame frame(impl_->device, static_cast<std::uint32_t>(out.width), static_cast<std::uint32_t>(out.height), side, side);
-  std::vector<gpu::Buffer> pyramid = allocate_pyramid(impl_->device, out.size);
+  MomentPyramid pyramid(impl_->device, out.size);
   for (const LightView& light : lights) {
     const interop::View view = light_view(light.light, out.scene_radius, out.width, out.height);
     out.layers.push_back(impl_->layer(light, view, frame, moments_pipeline, pyramid));

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "gpu/address.h"
 #include "stages/rsm/mip_chain.h"
 
 namespace vsgl {
@@ -101,11 +102,6 @@ std::vector<interop::Texture> all_textures(const scene::Scene& scene, const std:
 }
 
 }  // namespace
-
-interop::uvec2 address_of(const gpu::Buffer& buffer) {
-  const VkDeviceAddress address = buffer.address();
-  return {static_cast<interop::uint>(address), static_cast<interop::uint>(address >> 32)};
-}
 
 DeviceScene::DeviceScene(const scene::Scene& scene, gpu::Device& device)
     : triangle_count_(static_cast<std::uint32_t>(scene.triangle_count())),

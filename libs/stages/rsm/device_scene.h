@@ -10,9 +10,6 @@
 
 namespace vsgl {
 
-// A device address as shaders take it.
-interop::uvec2 address_of(const gpu::Buffer& buffer);
-
 // Vertices, triangles, materials and textures of a scene on the device.
 class DeviceScene {
  public:

@@ -5,7 +5,6 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 
-#include "interop/geometry.h"
 #include "lib/moments.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
