@@ -1,8 +1,8 @@
 #pragma once
 
-// The typed intermediates that the tools exchange; docs/artifacts.md is their contract. Each read_*() validates: schema and
-// version, parts, channels, types, sizes, finite values and documented ranges; errors name file, part, channel and pixel.
-// Each write() takes the temporary path of an OutputSet.
+// The typed intermediates that the tools exchange; docs/artifacts.md is their contract. Each read_*()
+// validates: schema and version, parts, channels, types, sizes, finite values and documented ranges; errors
+// name file, part, channel and pixel. Each write() takes the temporary path of an OutputSet.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,23 +10,24 @@
 #include <string>
 #include <vector>
 
-#include "math/light_source.h"
 #include "artifact/pyramid.h"
 #include "base/provenance.h"
 #include "interop/light.h"
 #include "interop/model.h"
 #include "interop/moments.h"
 #include "interop/surface.h"
+#include "math/light_source.h"
 #include "math/vec.h"
 
 namespace vsgl {
 
-// What the camera sees: width x height pixels, row by row from the top-left. Positions relative to `anchor` (world, m).
+// What the camera sees: width x height pixels, row by row from the top-left. Positions relative to `anchor`
+// (world, m).
 struct GBuffer {
   int width = 0, height = 0;
   Vec3 anchor;
-  Vec3 camera;             // position relative to the anchor
-  double scene_radius = 1; // of the scene's bounding sphere, m
+  Vec3 camera;              // position relative to the anchor
+  double scene_radius = 1;  // of the scene's bounding sphere, m
   std::vector<interop::Surface> pixels;
 
   bool has_specular() const;  // any pixel with an NDF
@@ -42,19 +43,22 @@ struct RsmLayer {
   std::vector<interop::Moments> pyramid;  // all levels, see pyramid.h
 };
 struct Rsm {
-  int size = 0;           // power of two: texels a side, padding included
+  int size = 0;               // power of two: texels a side, padding included
   int width = 0, height = 0;  // rendered part
   Vec3 anchor;
   double scene_radius = 1;
   std::vector<RsmLayer> layers;
 
-  std::size_t texel_count() const { return layers.size() * static_cast<std::size_t>(size) * static_cast<std::size_t>(size); }
+  std::size_t texel_count() const {
+    return layers.size() * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+  }
   bool has_specular() const;
 };
 void write(const std::filesystem::path& path, const Rsm& rsm, const Provenance& provenance);
 Rsm read_rsm(const std::filesystem::path& path);
 
-// Sampling density over the texels of all layers, mean 1 over all of them (or all zero: nothing emits), with its mean pyramid.
+// Sampling density over the texels of all layers, mean 1 over all of them (or all zero: nothing emits), with
+// its mean pyramid.
 struct Pdf {
   int size = 0;
   std::string method;
@@ -72,7 +76,7 @@ struct Lights {
   std::string method;  // vpl | fis-2014 | fis-2016
   Vec3 anchor;
   double scene_radius = 1;
-  int requested = 0;        // samples drawn; lights without power are dropped
+  int requested = 0;  // samples drawn; lights without power are dropped
   std::vector<interop::Light> lights;
 
   bool has_specular() const;
@@ -80,14 +84,15 @@ struct Lights {
 void write(const std::filesystem::path& path, const Lights& lights, const Provenance& provenance);
 Lights read_lights(const std::filesystem::path& path);
 
-// Shadow maps of all lights in one atlas: tile i at column i % columns, row i / columns; hemi-octahedral about `axis`.
+// Shadow maps of all lights in one atlas: tile i at column i % columns, row i / columns; hemi-octahedral
+// about `axis`.
 struct ShadowMaps {
-  int tile = 64;     // texels a side
-  int columns = 0;   // tiles a row of the atlas
+  int tile = 64;    // texels a side
+  int columns = 0;  // tiles a row of the atlas
   Vec3 anchor;
-  double bias_disk_radius = 0;   // rho: radius of a point's disk, m (absolute bias is rho/4)
-  double normal_offset = 1;      // in texels
-  double slope_bias = 0.1;       // in texels per tangent, tangent clamped at 1.5
+  double bias_disk_radius = 0;  // rho: radius of a point's disk, m (absolute bias is rho/4)
+  double normal_offset = 1;     // in texels
+  double slope_bias = 0.1;      // in texels per tangent, tangent clamped at 1.5
   double relative_bias = 0.02;
   struct View {
     interop::vec3 origin;  // m, relative to the anchor
@@ -104,9 +109,11 @@ ShadowMaps read_shadow_maps(const std::filesystem::path& path);
 // Radiance per pixel, W/(m^2 sr). Empty vectors are layers that were not computed and are not in the file.
 struct Indirect {
   int width = 0, height = 0;
-  std::vector<interop::vec3> diffuse, specular;  // of the indirect light; the file also holds their sum `indirect`
+  std::vector<interop::vec3> diffuse,
+      specular;  // of the indirect light; the file also holds their sum `indirect`
   std::vector<interop::vec3> direct;
-  std::vector<float> cancellation;  // fraction of the pixel's indirect luminance from lights whose SG approximation was cancelled
+  std::vector<float> cancellation;  // fraction of the pixel's indirect luminance from lights whose SG
+                                    // approximation was cancelled
 };
 void write(const std::filesystem::path& path, const Indirect& indirect, const Provenance& provenance);
 Indirect read_indirect(const std::filesystem::path& path);
