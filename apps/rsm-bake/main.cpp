@@ -33,8 +33,9 @@ std::optional<Size> parse_size(const std::string& text, int limit) {
 }
 
 std::string check_size(const std::string& text, int limit) {
-  return parse_size(text, limit) ? ""
-                                 : "\"" + text + "\" is no size: give N or WIDTHxHEIGHT, 1 to " + std::to_string(limit);
+  return parse_size(text, limit)
+             ? ""
+             : "\"" + text + "\" is no size: give N or WIDTHxHEIGHT, 1 to " + std::to_string(limit);
 }
 
 constexpr int kMaxRsm = 4096, kMaxResolution = 16384;
@@ -46,11 +47,13 @@ void declare(vsgl::Tool& tool, Arguments& a) {
   tool.output("--rsm", a.rsm, "reflective shadow map of the lights to write");
   app.add_option("--rsm-size", a.rsm_size, "texels of each RSM layer, N or WIDTHxHEIGHT, 1 to 4096")
       ->check([](const std::string& text) { return check_size(text, kMaxRsm); });
-  app.add_option("--resolution", a.resolution,
-                 "pixels of the G-buffer, WIDTHxHEIGHT (default: the scene's); keeps the vertical field of view")
+  app.add_option(
+         "--resolution", a.resolution,
+         "pixels of the G-buffer, WIDTHxHEIGHT (default: the scene's); keeps the vertical field of view")
       ->check([](const std::string& text) { return check_size(text, kMaxResolution); });
-  app.add_option("--rsm-normals", a.normals,
-                 "what bent normals do to reflected light: consistent with a path tracer, or as in the papers")
+  app.add_option(
+         "--rsm-normals", a.normals,
+         "what bent normals do to reflected light: consistent with a path tracer, or as in the papers")
       ->check(CLI::IsMember({"consistent", "paper"}));
 }
 

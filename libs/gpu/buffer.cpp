@@ -11,9 +11,10 @@
 namespace vsgl::gpu {
 namespace {
 
-constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                                      VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+constexpr VkBufferUsageFlags kUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 constexpr VkMemoryPropertyFlags kMappable =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 constexpr std::size_t kStagingBytes = std::size_t{64} << 20;
@@ -29,14 +30,16 @@ VkBuffer create_buffer(VkDevice device, std::size_t bytes) {
 }
 
 // Memory of the first of `wanted` that the device has for this buffer.
-VkDeviceMemory allocate(Device& device, VkBuffer buffer, std::initializer_list<VkMemoryPropertyFlags> wanted) {
+VkDeviceMemory allocate(Device& device, VkBuffer buffer,
+                        std::initializer_list<VkMemoryPropertyFlags> wanted) {
   VkMemoryRequirements needs;
   vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
   int type = -1;
   for (VkMemoryPropertyFlags flags : wanted) {
     if (type < 0) type = device.memory_type(needs.memoryTypeBits, flags);
   }
-  if (type < 0) throw Error(ErrorCode::device_limit, "device \"" + device.info().name + "\": no memory for buffers");
+  if (type < 0)
+    throw Error(ErrorCode::device_limit, "device \"" + device.info().name + "\": no memory for buffers");
   auto flags = vk_struct<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
   flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
   auto info = vk_struct<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags);
@@ -50,7 +53,8 @@ VkDeviceMemory allocate(Device& device, VkBuffer buffer, std::initializer_list<V
 // Host-visible memory through which buffers of discrete devices are read and written.
 class Staging {
  public:
-  Staging(Device& device, std::size_t bytes) : device_(device.handle()), buffer_(create_buffer(device_, bytes)) {
+  Staging(Device& device, std::size_t bytes)
+      : device_(device.handle()), buffer_(create_buffer(device_, bytes)) {
     memory_ = allocate(device, buffer_, {kMappable | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kMappable});
     check(vkBindBufferMemory(device_, buffer_, memory_, 0), "vkBindBufferMemory");
     check(vkMapMemory(device_, memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
@@ -74,7 +78,8 @@ class Staging {
 
 }  // namespace
 
-Buffer::Buffer(Device& device, std::size_t bytes) : device_(&device), size_(bytes == 0 ? 16 : (bytes + 3) / 4 * 4) {
+Buffer::Buffer(Device& device, std::size_t bytes)
+    : device_(&device), size_(bytes == 0 ? 16 : (bytes + 3) / 4 * 4) {
   if (size_ > device.max_allocation()) {
     throw Error(ErrorCode::memory, "a buffer of " + std::to_string(size_ >> 20) + " MiB is above the " +
                                        std::to_string(device.max_allocation() >> 20) +
@@ -97,9 +102,13 @@ Buffer::Buffer(Device& device, std::size_t bytes) : device_(&device), size_(byte
   }
 }
 
-Buffer::~Buffer() { release(); }
+Buffer::~Buffer() {
+  release();
+}
 
-Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+Buffer::Buffer(Buffer&& other) noexcept {
+  *this = std::move(other);
+}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
   std::swap(device_, other.device_);

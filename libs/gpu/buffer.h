@@ -9,9 +9,10 @@
 
 namespace vsgl::gpu {
 
-// A device buffer usable as storage, uniform (up to the device's limit), uniform texel and transfer buffer, and by address.
-// Mapped on CPU and integrated devices (always on lavapipe), staged elsewhere. Size 0 is rounded up to 16 bytes; the contents are
-// undefined until written. Throws memory when the device has too little.
+// A device buffer usable as storage, uniform (up to the device's limit), uniform texel and transfer buffer,
+// and by address. Mapped on CPU and integrated devices (always on lavapipe), staged elsewhere. Size 0 is
+// rounded up to 16 bytes; the contents are undefined until written. Throws memory when the device has too
+// little.
 class Buffer {
  public:
   Buffer(Device& device, std::size_t bytes);

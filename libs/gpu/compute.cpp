@@ -12,24 +12,33 @@ namespace {
 
 VkDescriptorType descriptor_type(Binding binding) {
   switch (binding) {
-    case Binding::storage: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    case Binding::uniform: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case Binding::storage:
+      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    case Binding::uniform:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case Binding::texel_rgba32f:
-    case Binding::texel_r32ui: return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    case Binding::texel_r32ui:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
   }
   throw Error(ErrorCode::internal, "unknown buffer binding");
 }
 
-bool is_texel(Binding binding) { return binding == Binding::texel_rgba32f || binding == Binding::texel_r32ui; }
+bool is_texel(Binding binding) {
+  return binding == Binding::texel_rgba32f || binding == Binding::texel_r32ui;
+}
 
 // Largest range of a buffer that a binding may see, bytes.
 std::size_t range_limit(const Device& device, Binding binding) {
   const VkPhysicalDeviceLimits& limits = device.limits();
   switch (binding) {
-    case Binding::storage: return limits.maxStorageBufferRange;
-    case Binding::uniform: return limits.maxUniformBufferRange;
-    case Binding::texel_rgba32f: return std::size_t{16} * limits.maxTexelBufferElements;
-    case Binding::texel_r32ui: return std::size_t{4} * limits.maxTexelBufferElements;
+    case Binding::storage:
+      return limits.maxStorageBufferRange;
+    case Binding::uniform:
+      return limits.maxUniformBufferRange;
+    case Binding::texel_rgba32f:
+      return std::size_t{16} * limits.maxTexelBufferElements;
+    case Binding::texel_r32ui:
+      return std::size_t{4} * limits.maxTexelBufferElements;
   }
   throw Error(ErrorCode::internal, "unknown buffer binding");
 }
@@ -60,13 +69,16 @@ struct ComputePipeline::Impl {
 void ComputePipeline::Impl::create_layout() {
   std::vector<VkDescriptorSetLayoutBinding> slots(bindings.size());
   for (std::size_t i = 0; i < bindings.size(); ++i) {
-    slots[i] = {static_cast<std::uint32_t>(i), descriptor_type(bindings[i]), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+    slots[i] = {static_cast<std::uint32_t>(i), descriptor_type(bindings[i]), 1, VK_SHADER_STAGE_COMPUTE_BIT,
+                nullptr};
   }
-  auto set_info = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+  auto set_info =
+      vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
   set_info.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
   set_info.bindingCount = static_cast<std::uint32_t>(slots.size());
   set_info.pBindings = slots.data();
-  check(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set_layout), "vkCreateDescriptorSetLayout");
+  check(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set_layout),
+        "vkCreateDescriptorSetLayout");
   const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push_bytes)};
   auto info = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
   info.setLayoutCount = 1;
@@ -95,8 +107,9 @@ void ComputePipeline::Impl::create_pipeline(std::span<const std::uint32_t> spirv
         "vkCreateComputePipelines");
 }
 
-ComputePipeline::ComputePipeline(Device& device, std::span<const std::uint32_t> spirv, std::vector<Binding> bindings,
-                                 std::size_t push_bytes, const SpecializationConstants& constants)
+ComputePipeline::ComputePipeline(Device& device, std::span<const std::uint32_t> spirv,
+                                 std::vector<Binding> bindings, std::size_t push_bytes,
+                                 const SpecializationConstants& constants)
     : impl_(std::make_unique<Impl>(device, std::move(bindings), push_bytes)) {
   impl_->create_layout();
   impl_->create_pipeline(spirv, constants);
@@ -211,7 +224,8 @@ void Commands::Impl::bind(const ComputePipeline::Impl& pipeline, const std::vect
     const Binding binding = pipeline.bindings[i];
     const std::size_t bytes = range.size > 0 ? range.size : range.buffer->size() - range.offset;
     if (range.offset + bytes > range.buffer->size()) {
-      throw Error(ErrorCode::internal, "binding " + std::to_string(i) + " reaches past the end of its buffer");
+      throw Error(ErrorCode::internal,
+                  "binding " + std::to_string(i) + " reaches past the end of its buffer");
     }
     if (bytes > range_limit(device, binding)) {
       throw Error(ErrorCode::device_limit, "device \"" + device.info().name + "\": a shader may see " +
@@ -231,8 +245,8 @@ void Commands::Impl::bind(const ComputePipeline::Impl& pipeline, const std::vect
   const auto push_descriptors = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
       vkGetDeviceProcAddr(device.handle(), "vkCmdPushDescriptorSetKHR"));
   if (count > 0) {
-    push_descriptors(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, static_cast<std::uint32_t>(count),
-                     writes.data());
+    push_descriptors(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0,
+                     static_cast<std::uint32_t>(count), writes.data());
   }
 }
 
@@ -248,7 +262,8 @@ void Commands::dispatch(const std::string& label, const ComputePipeline& pipelin
     if (groups[axis] > limit[axis]) {
       throw Error(ErrorCode::device_limit, label + ": " + std::to_string(groups[axis]) +
                                                " workgroups along one axis, the device takes " +
-                                               std::to_string(limit[axis]) + "; ask for smaller images or fewer lights");
+                                               std::to_string(limit[axis]) +
+                                               "; ask for smaller images or fewer lights");
     }
   }
   if (push.size() != shader.push_bytes) {

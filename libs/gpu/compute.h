@@ -15,10 +15,12 @@
 
 namespace vsgl::gpu {
 
-// How a shader sees a buffer: `buffer` blocks, `uniform` blocks, `uniform samplerBuffer` (RGBA32F) or `usamplerBuffer` (R32UI).
+// How a shader sees a buffer: `buffer` blocks, `uniform` blocks, `uniform samplerBuffer` (RGBA32F) or
+// `usamplerBuffer` (R32UI).
 enum class Binding { storage, uniform, texel_rgba32f, texel_r32ui };
 
-using SpecializationConstants = std::map<std::uint32_t, std::uint32_t>;  // constant_id -> 32-bit value (bit-cast floats)
+using SpecializationConstants =
+    std::map<std::uint32_t, std::uint32_t>;  // constant_id -> 32-bit value (bit-cast floats)
 
 // A compute shader with the bindings 0..n-1 of set 0 and push constants of `push_bytes`.
 class ComputePipeline {
@@ -42,9 +44,9 @@ struct BufferRange {
   std::size_t offset = 0, size = 0;
 };
 
-// A list of dispatches, recorded and then run by submit(), which waits. Each dispatch sees the writes of those before it.
-// A label names the phase whose device time submit() adds to the report. Group counts above the device's limit throw
-// device_limit.
+// A list of dispatches, recorded and then run by submit(), which waits. Each dispatch sees the writes of
+// those before it. A label names the phase whose device time submit() adds to the report. Group counts above
+// the device's limit throw device_limit.
 class Commands {
  public:
   explicit Commands(Device& device);
@@ -52,13 +54,15 @@ class Commands {
   Commands(const Commands&) = delete;
   Commands& operator=(const Commands&) = delete;
 
-  void dispatch(const std::string& label, const ComputePipeline& pipeline, const std::vector<BufferRange>& buffers,
-                std::span<const std::byte> push, std::array<std::uint32_t, 3> groups);
+  void dispatch(const std::string& label, const ComputePipeline& pipeline,
+                const std::vector<BufferRange>& buffers, std::span<const std::byte> push,
+                std::array<std::uint32_t, 3> groups);
   template <class Push>
-    requires(!std::convertible_to<const Push&, std::span<const std::byte>>)
-  void dispatch(const std::string& label, const ComputePipeline& pipeline, const std::vector<BufferRange>& buffers,
-                const Push& push, std::array<std::uint32_t, 3> groups) {
-    dispatch(label, pipeline, buffers, std::span<const std::byte>(std::as_bytes(std::span(&push, 1))), groups);
+  requires(!std::convertible_to<const Push&, std::span<const std::byte>>) void dispatch(
+      const std::string& label, const ComputePipeline& pipeline, const std::vector<BufferRange>& buffers,
+      const Push& push, std::array<std::uint32_t, 3> groups) {
+    dispatch(label, pipeline, buffers, std::span<const std::byte>(std::as_bytes(std::span(&push, 1))),
+             groups);
   }
   // Runs everything recorded so far and waits; may be called again after more dispatches.
   void submit(Report& report);

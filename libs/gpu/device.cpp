@@ -19,7 +19,8 @@ std::atomic<int> validation_messages{0};
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_validation_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                                      VkDebugUtilsMessageTypeFlagsEXT,
-                                                     const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
+                                                     const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                     void*) {
   std::fprintf(stderr, "validation: %s\n", data->pMessage);
   ++validation_messages;
   return VK_FALSE;
@@ -31,7 +32,8 @@ bool validation_wanted() {
 }
 
 VkDebugUtilsMessengerCreateInfoEXT messenger_info() {
-  auto info = vk_struct<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
+  auto info =
+      vk_struct<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
   info.messageSeverity =
       VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
@@ -48,18 +50,24 @@ void require_validation_layer() {
     return std::strcmp(layer.layerName, kValidationLayer) == 0;
   });
   if (!found) {
-    throw Error(ErrorCode::device_limit, std::string("VSGL_VALIDATION=1, but the layer ") + kValidationLayer +
-                                             " is not installed; install vulkan-validationlayers or unset it");
+    throw Error(ErrorCode::device_limit,
+                std::string("VSGL_VALIDATION=1, but the layer ") + kValidationLayer +
+                    " is not installed; install vulkan-validationlayers or unset it");
   }
 }
 
 std::string type_name(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "cpu";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    default:
+      return "other";
   }
 }
 
@@ -99,14 +107,15 @@ int vector_bits_of(const std::string& name) {
               "device \"" + info.name + "\": lacks " + what + "; choose another with --device");
 }
 
-// The features that every stage may use, chained as Vulkan wants them. Not copyable: the chain points into itself.
+// The features that every stage may use, chained as Vulkan wants them. Not copyable: the chain points into
+// itself.
 struct Features {
-  VkPhysicalDeviceVulkan13Features v13 = vk_struct<VkPhysicalDeviceVulkan13Features>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
-  VkPhysicalDeviceVulkan12Features v12 = vk_struct<VkPhysicalDeviceVulkan12Features>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
-  VkPhysicalDeviceFeatures2 all = vk_struct<VkPhysicalDeviceFeatures2>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+  VkPhysicalDeviceVulkan13Features v13 =
+      vk_struct<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+  VkPhysicalDeviceVulkan12Features v12 =
+      vk_struct<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
+  VkPhysicalDeviceFeatures2 all =
+      vk_struct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
 
   Features() {
     v12.pNext = &v13;
@@ -130,7 +139,8 @@ void select_features(const Features& there, const DeviceInfo& info, Features& wa
 
 void check(VkResult result, const char* call) {
   if (result == VK_SUCCESS) return;
-  const std::string text = std::string(call) + " failed with VkResult " + std::to_string(static_cast<int>(result));
+  const std::string text =
+      std::string(call) + " failed with VkResult " + std::to_string(static_cast<int>(result));
   if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
     throw Error(ErrorCode::memory, text + ": not enough memory; ask for smaller images or fewer lights");
   }
@@ -142,8 +152,8 @@ void full_barrier(VkCommandBuffer commands) {
   barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
   barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
   vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                       VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
-                       nullptr);
+                       VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
+                       nullptr, 0, nullptr);
 }
 
 Device::Device(const DeviceOptions& options) {
@@ -200,7 +210,8 @@ void Device::create_instance(bool validation) {
   const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
     instance_ = VK_NULL_HANDLE;
-    throw Error(ErrorCode::no_device, "no Vulkan driver is installed; install mesa-vulkan-drivers for the CPU device");
+    throw Error(ErrorCode::no_device,
+                "no Vulkan driver is installed; install mesa-vulkan-drivers for the CPU device");
   }
   check(result, "vkCreateInstance");
   if (!validation) return;
@@ -212,7 +223,8 @@ void Device::create_instance(bool validation) {
 void Device::choose_physical(const std::string& wanted) {
   const std::vector<Candidate> candidates = list_devices(instance_);
   if (candidates.empty()) {
-    throw Error(ErrorCode::no_device, "no Vulkan device found; install mesa-vulkan-drivers for the CPU device");
+    throw Error(ErrorCode::no_device,
+                "no Vulkan device found; install mesa-vulkan-drivers for the CPU device");
   }
   const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
     if (wanted == "auto" || wanted == "cpu") return candidate.type == "cpu";
@@ -231,15 +243,19 @@ void Device::choose_physical(const std::string& wanted) {
   for (const Candidate& candidate : candidates) {
     list += (list.empty() ? "\"" : ", \"") + candidate.name + "\" (" + candidate.type + ")";
   }
-  throw Error(ErrorCode::no_device,
-              "--device \"" + wanted + "\": no such Vulkan device; there are: " + list + "; name one or use auto");
+  throw Error(ErrorCode::no_device, "--device \"" + wanted + "\": no such Vulkan device; there are: " + list +
+                                        "; name one or use auto");
 }
 
 void Device::describe() {
-  auto subgroup = vk_struct<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
-  auto driver = vk_struct<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &subgroup);
-  auto sizes = vk_struct<VkPhysicalDeviceMaintenance3Properties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, &driver);
-  auto properties = vk_struct<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &sizes);
+  auto subgroup =
+      vk_struct<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
+  auto driver = vk_struct<VkPhysicalDeviceDriverProperties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &subgroup);
+  auto sizes = vk_struct<VkPhysicalDeviceMaintenance3Properties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, &driver);
+  auto properties =
+      vk_struct<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &sizes);
   vkGetPhysicalDeviceProperties2(physical_, &properties);
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
   limits_ = properties.properties.limits;
@@ -262,9 +278,9 @@ void Device::create_device() {
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
   constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-  const auto family = std::find_if(families.begin(), families.end(), [](const VkQueueFamilyProperties& candidate) {
-    return (candidate.queueFlags & kWanted) == kWanted;
-  });
+  const auto family = std::find_if(
+      families.begin(), families.end(),
+      [](const VkQueueFamilyProperties& candidate) { return (candidate.queueFlags & kWanted) == kWanted; });
   if (family == families.end()) throw_lacking(info_, "a queue for both graphics and compute");
   family_ = static_cast<std::uint32_t>(family - families.begin());
   if (family->timestampValidBits > 0) timestamp_period_ = static_cast<double>(limits_.timestampPeriod);

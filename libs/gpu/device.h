@@ -11,8 +11,9 @@ namespace vsgl::gpu {
 struct DeviceOptions {
   std::string device = "auto";  // auto (a CPU device: lavapipe), cpu, gpu, or part of a device's name
   int threads = 0;              // lavapipe's worker threads; 0: all cores
-  // The process promises never to draw, blit or sample images: lavapipe may then run 512 bits wide (1.4-1.7x faster for compute;
-  // any draw crashes under it). Falls back to the default width where the CPU lacks AVX-512.
+  // The process promises never to draw, blit or sample images: lavapipe may then run 512 bits wide (1.4-1.7x
+  // faster for compute; any draw crashes under it). Falls back to the default width where the CPU lacks
+  // AVX-512.
   bool compute_only = false;
 };
 
@@ -23,10 +24,10 @@ struct DeviceInfo {
   std::uint32_t subgroup_size = 0;
 };
 
-// Vulkan instance, device, one queue (graphics and compute) and its command pool. Throws no_device when none matches, device_limit
-// when a needed feature (Vulkan 1.3, scalar block layout, buffer addresses, push descriptors) is absent. VSGL_VALIDATION=1 in the
-// environment turns the Khronos validation layer on; its messages go to stderr, prefixed "validation:", and the destructor
-// aborts the process if there was any.
+// Vulkan instance, device, one queue (graphics and compute) and its command pool. Throws no_device when none
+// matches, device_limit when a needed feature (Vulkan 1.3, scalar block layout, buffer addresses, push
+// descriptors) is absent. VSGL_VALIDATION=1 in the environment turns the Khronos validation layer on; its
+// messages go to stderr, prefixed "validation:", and the destructor aborts the process if there was any.
 class Device {
  public:
   explicit Device(const DeviceOptions& options);

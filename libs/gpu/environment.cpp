@@ -25,7 +25,8 @@ bool cpu_has_avx512() {
 std::filesystem::path wide_cache_folder() {
   if (const auto mesa = get("MESA_SHADER_CACHE_DIR")) return std::filesystem::path(*mesa) / "vsgltools-512";
   if (const auto xdg = get("XDG_CACHE_HOME")) return std::filesystem::path(*xdg) / "vsgltools" / "mesa-512";
-  if (const auto home = get("HOME")) return std::filesystem::path(*home) / ".cache" / "vsgltools" / "mesa-512";
+  if (const auto home = get("HOME"))
+    return std::filesystem::path(*home) / ".cache" / "vsgltools" / "mesa-512";
   return {};
 }
 

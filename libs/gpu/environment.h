@@ -26,8 +26,8 @@ class ScopedEnvironment {
 // lavapipe's worker threads: LP_NUM_THREADS, unless `threads` is 0.
 void set_lavapipe_threads(ScopedEnvironment& environment, int threads);
 
-// Makes lavapipe 512 bits wide, with a shader cache of its own (Mesa's cache ignores the width). Leaves everything as it is where
-// the CPU lacks AVX-512 or the user has chosen a width.
+// Makes lavapipe 512 bits wide, with a shader cache of its own (Mesa's cache ignores the width). Leaves
+// everything as it is where the CPU lacks AVX-512 or the user has chosen a width.
 void set_lavapipe_wide(ScopedEnvironment& environment);
 
 }  // namespace vsgl::gpu

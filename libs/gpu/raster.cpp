@@ -16,14 +16,16 @@ constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_ST
 
 void require_drawable(const Device& device, std::uint32_t width, std::uint32_t height) {
   if (device.info().vector_bits > 256) {
-    throw Error(ErrorCode::device_limit, "device \"" + device.info().name +
-                                             "\": cannot draw with vectors that wide; unset LP_NATIVE_VECTOR_WIDTH");
+    throw Error(ErrorCode::device_limit,
+                "device \"" + device.info().name +
+                    "\": cannot draw with vectors that wide; unset LP_NATIVE_VECTOR_WIDTH");
   }
   const std::uint32_t limit = device.limits().maxImageDimension2D;
   if (width > limit || height > limit) {
     throw Error(ErrorCode::device_limit, "device \"" + device.info().name + "\": cannot draw images of " +
-                                             std::to_string(width) + "x" + std::to_string(height) + ", only up to " +
-                                             std::to_string(limit) + " a side; ask for a smaller resolution");
+                                             std::to_string(width) + "x" + std::to_string(height) +
+                                             ", only up to " + std::to_string(limit) +
+                                             " a side; ask for a smaller resolution");
   }
 }
 
@@ -39,8 +41,8 @@ void transition(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspe
   barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image;
   barrier.subresourceRange = {aspect, 0, 1, 0, 1};
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr,
-                       0, nullptr, 1, &barrier);
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
+                       nullptr, 0, nullptr, 1, &barrier);
 }
 
 VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout) {
@@ -54,7 +56,8 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout) {
 
 }  // namespace
 
-RasterTarget::RasterTarget(Device& device, std::uint32_t width, std::uint32_t height, std::vector<VkFormat> colours)
+RasterTarget::RasterTarget(Device& device, std::uint32_t width, std::uint32_t height,
+                           std::vector<VkFormat> colours)
     : device_(device), width_(width), height_(height), formats_(std::move(colours)) {
   require_drawable(device, width, height);
   try {
@@ -70,7 +73,9 @@ RasterTarget::RasterTarget(Device& device, std::uint32_t width, std::uint32_t he
   }
 }
 
-RasterTarget::~RasterTarget() { release(); }
+RasterTarget::~RasterTarget() {
+  release();
+}
 
 void RasterTarget::create(Image& image, VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect) {
   auto info = vk_struct<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
@@ -117,8 +122,8 @@ void RasterTarget::read(std::size_t colour, Buffer& buffer) {
     VkBufferImageCopy copy{};
     copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     copy.imageExtent = {width_, height_, 1};
-    vkCmdCopyImageToBuffer(commands, colours_.at(colour).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.handle(),
-                           1, &copy);
+    vkCmdCopyImageToBuffer(commands, colours_.at(colour).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           buffer.handle(), 1, &copy);
   });
 }
 
@@ -135,7 +140,9 @@ RasterPipeline::RasterPipeline(Device& device, std::span<const std::uint32_t> ve
   }
 }
 
-RasterPipeline::~RasterPipeline() { release(); }
+RasterPipeline::~RasterPipeline() {
+  release();
+}
 
 void RasterPipeline::release() {
   vkDestroyPipeline(device_.handle(), pipeline_, nullptr);
@@ -153,7 +160,8 @@ void RasterPipeline::create_layout() {
 void RasterPipeline::create_pipeline(std::span<const std::uint32_t> vertex_spirv,
                                      std::span<const std::uint32_t> fragment_spirv) {
   const ShaderModule vertex(device_, vertex_spirv), fragment(device_, fragment_spirv);
-  const std::array stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT), fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT)};
+  const std::array stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT),
+                          fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT)};
   const auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
   auto assembly = vk_struct<VkPipelineInputAssemblyStateCreateInfo>(
@@ -168,11 +176,11 @@ void RasterPipeline::create_pipeline(std::span<const std::uint32_t> vertex_spirv
   raster.polygonMode = VK_POLYGON_MODE_FILL;
   raster.cullMode = VK_CULL_MODE_NONE;
   raster.lineWidth = 1;
-  auto samples =
-      vk_struct<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+  auto samples = vk_struct<VkPipelineMultisampleStateCreateInfo>(
+      VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-  auto depth =
-      vk_struct<VkPipelineDepthStencilStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
+  auto depth = vk_struct<VkPipelineDepthStencilStateCreateInfo>(
+      VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
   depth.depthTestEnable = VK_TRUE;
   depth.depthWriteEnable = VK_TRUE;
   depth.depthCompareOp = VK_COMPARE_OP_GREATER;
@@ -180,19 +188,21 @@ void RasterPipeline::create_pipeline(std::span<const std::uint32_t> vertex_spirv
   write_all.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                              VK_COLOR_COMPONENT_A_BIT;
   const std::vector<VkPipelineColorBlendAttachmentState> blends(formats_.size(), write_all);
-  auto blend =
-      vk_struct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+  auto blend = vk_struct<VkPipelineColorBlendStateCreateInfo>(
+      VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
   blend.attachmentCount = static_cast<std::uint32_t>(blends.size());
   blend.pAttachments = blends.data();
   constexpr std::array kDynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-  auto dynamic = vk_struct<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+  auto dynamic =
+      vk_struct<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
   dynamic.dynamicStateCount = static_cast<std::uint32_t>(kDynamic.size());
   dynamic.pDynamicStates = kDynamic.data();
   auto rendering = vk_struct<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
   rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats_.size());
   rendering.pColorAttachmentFormats = formats_.data();
   rendering.depthAttachmentFormat = kDepthFormat;
-  auto info = vk_struct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering);
+  auto info =
+      vk_struct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering);
   info.stageCount = static_cast<std::uint32_t>(stages.size());
   info.pStages = stages.data();
   info.pVertexInputState = &input;
@@ -210,7 +220,8 @@ void RasterPipeline::create_pipeline(std::span<const std::uint32_t> vertex_spirv
 
 void RasterPipeline::draw(RasterTarget& target, std::uint32_t vertices, std::span<const std::byte> push) {
   if (target.formats() != formats_ || push.size() != push_bytes_) {
-    throw Error(ErrorCode::internal, "a drawing pipeline got attachments or push constants that it was not made for");
+    throw Error(ErrorCode::internal,
+                "a drawing pipeline got attachments or push constants that it was not made for");
   }
   device_.run([&](VkCommandBuffer commands) { record(commands, target, vertices, push); });
 }
@@ -225,7 +236,8 @@ void RasterPipeline::record(VkCommandBuffer commands, RasterTarget& target, std:
   }
   transition(commands, target.depth_.image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
              VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-  const VkRenderingAttachmentInfo depth = attachment(target.depth_.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+  const VkRenderingAttachmentInfo depth =
+      attachment(target.depth_.view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
   const VkRect2D area{{0, 0}, {target.width(), target.height()}};
   auto rendering = vk_struct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
   rendering.renderArea = area;
@@ -235,7 +247,8 @@ void RasterPipeline::record(VkCommandBuffer commands, RasterTarget& target, std:
   rendering.pDepthAttachment = &depth;
   vkCmdBeginRendering(commands, &rendering);
   if (vertices > 0) {
-    const VkViewport viewport{0, 0, static_cast<float>(target.width()), static_cast<float>(target.height()), 0, 1};
+    const VkViewport viewport{0, 0, static_cast<float>(target.width()), static_cast<float>(target.height()),
+                              0, 1};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &area);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);

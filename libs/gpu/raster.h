@@ -10,8 +10,9 @@
 
 namespace vsgl::gpu {
 
-// Offscreen images to draw into: colour attachments of the given formats and a 32-bit float depth. Throws device_limit when the
-// device cannot draw images of that size, or runs 512 bits wide (DeviceOptions::compute_only).
+// Offscreen images to draw into: colour attachments of the given formats and a 32-bit float depth. Throws
+// device_limit when the device cannot draw images of that size, or runs 512 bits wide
+// (DeviceOptions::compute_only).
 class RasterTarget {
  public:
   RasterTarget(Device& device, std::uint32_t width, std::uint32_t height, std::vector<VkFormat> colours);
@@ -43,13 +44,14 @@ class RasterTarget {
   Image depth_;
 };
 
-// A vertex and a fragment shader that draw triangles without vertex buffers or descriptors: they fetch what they need by address
-// (GLSL's buffer_reference) from push constants. Both faces are drawn. Depth is reversed (0 is far) and tested with GREATER, so
-// that of equal depths the first drawn wins.
+// A vertex and a fragment shader that draw triangles without vertex buffers or descriptors: they fetch what
+// they need by address (GLSL's buffer_reference) from push constants. Both faces are drawn. Depth is reversed
+// (0 is far) and tested with GREATER, so that of equal depths the first drawn wins.
 class RasterPipeline {
  public:
-  RasterPipeline(Device& device, std::span<const std::uint32_t> vertex_spirv, std::span<const std::uint32_t> fragment_spirv,
-                 std::vector<VkFormat> colours, std::size_t push_bytes);
+  RasterPipeline(Device& device, std::span<const std::uint32_t> vertex_spirv,
+                 std::span<const std::uint32_t> fragment_spirv, std::vector<VkFormat> colours,
+                 std::size_t push_bytes);
   ~RasterPipeline();
   RasterPipeline(const RasterPipeline&) = delete;
   RasterPipeline& operator=(const RasterPipeline&) = delete;
@@ -59,8 +61,10 @@ class RasterPipeline {
 
  private:
   void create_layout();
-  void create_pipeline(std::span<const std::uint32_t> vertex_spirv, std::span<const std::uint32_t> fragment_spirv);
-  void record(VkCommandBuffer commands, RasterTarget& target, std::uint32_t vertices, std::span<const std::byte> push);
+  void create_pipeline(std::span<const std::uint32_t> vertex_spirv,
+                       std::span<const std::uint32_t> fragment_spirv);
+  void record(VkCommandBuffer commands, RasterTarget& target, std::uint32_t vertices,
+              std::span<const std::byte> push);
   void release();
 
   Device& device_;

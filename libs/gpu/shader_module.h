@@ -22,7 +22,8 @@ class ShaderModule {
   ShaderModule& operator=(const ShaderModule&) = delete;
 
   VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits stage) const {
-    auto info = vk_struct<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+    auto info =
+        vk_struct<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
     info.stage = stage;
     info.module = module_;
     info.pName = "main";

@@ -30,7 +30,9 @@ std::array<std::uint32_t, 3> groups_over(std::uint32_t width, std::uint32_t heig
   return {gpu::groups_for(width, kGroup), gpu::groups_for(height, kGroup), 1};
 }
 
-bool is_lit(const interop::Surface& surface) { return surface.id != interop::NO_INSTANCE; }
+bool is_lit(const interop::Surface& surface) {
+  return surface.id != interop::NO_INSTANCE;
+}
 
 double luminance_of(interop::vec3 c) {
   return luminance({static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)});
@@ -43,8 +45,9 @@ void report_layer(const RsmLayer& layer, std::uint32_t clamped, Report& report) 
   const double reflected = diffuse + specular;
   report.count("layer " + layer.name,
                {{"lit_texels", std::count_if(layer.surface.begin(), layer.surface.end(), is_lit)},
-                {"flux_w", {count * static_cast<double>(top.flux.x), count * static_cast<double>(top.flux.y),
-                            count * static_cast<double>(top.flux.z)}},
+                {"flux_w",
+                 {count * static_cast<double>(top.flux.x), count * static_cast<double>(top.flux.y),
+                  count * static_cast<double>(top.flux.z)}},
                 {"reflected_luminance_w", count * reflected},
                 {"specular_fraction", reflected > 0 ? specular / reflected : 0.0},
                 {"clamped_texels", clamped}});
@@ -101,7 +104,8 @@ Baker::Impl::Impl(const scene::Scene& s, gpu::Device& d, Report& r)
       device(d),
       report(r),
       geometry(upload(s, d, r)),
-      visibility_pipeline(d, visibility_vert_spv, visibility_frag_spv, {kVisibilityFormat}, sizeof(interop::BakePush)),
+      visibility_pipeline(d, visibility_vert_spv, visibility_frag_spv, {kVisibilityFormat},
+                          sizeof(interop::BakePush)),
       surface_pipeline(d, surface_comp_spv, {}, sizeof(interop::BakePush)),
       commands(d),
       bake(d, sizeof(interop::Bake)),
@@ -170,7 +174,8 @@ GBuffer Baker::gbuffer() {
   impl_->commands.submit(impl_->report);
   out.pixels = impl_->download_surface(frame);
   impl_->report.count("seen_pixels", std::count_if(out.pixels.begin(), out.pixels.end(), is_lit));
-  if (!out.has_specular()) impl_->report.skipped("specular channels of the G-buffer", "no pixel has a specular lobe");
+  if (!out.has_specular())
+    impl_->report.skipped("specular channels of the G-buffer", "no pixel has a specular lobe");
   return out;
 }
 
@@ -191,13 +196,15 @@ Rsm Baker::rsm(const RsmParams& params) {
   const gpu::ComputePipeline moments_pipeline(impl_->device, moments_comp_spv, {}, sizeof(interop::BakePush),
                                               {{0, consistent}});
   const auto side = static_cast<std::uint32_t>(out.size);
-  Frame frame(impl_->device, static_cast<std::uint32_t>(out.width), static_cast<std::uint32_t>(out.height), side, side);
+  Frame frame(impl_->device, static_cast<std::uint32_t>(out.width), static_cast<std::uint32_t>(out.height),
+              side, side);
   MomentPyramid pyramid(impl_->device, out.size);
   for (const LightView& light : lights) {
     const interop::View view = light_view(light.light, out.scene_radius, out.width, out.height);
     out.layers.push_back(impl_->layer(light, view, frame, moments_pipeline, pyramid));
   }
-  if (!out.has_specular()) impl_->report.skipped("specular channels of the RSM", "no texel has a specular lobe");
+  if (!out.has_specular())
+    impl_->report.skipped("specular channels of the RSM", "no texel has a specular lobe");
   return out;
 }
 

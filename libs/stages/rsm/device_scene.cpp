@@ -13,8 +13,9 @@ static_assert(sizeof(scene::Vertex) == sizeof(interop::Vertex), "vertices are co
 
 void require_index(const scene::Instance& instance, std::size_t index, std::size_t count, const char* what) {
   if (index < count) return;
-  throw Error(ErrorCode::mesh_invalid, "instance \"" + instance.name + "\": " + what + " " + std::to_string(index) +
-                                           " of " + std::to_string(count) + " does not exist");
+  throw Error(ErrorCode::mesh_invalid, "instance \"" + instance.name + "\": " + what + " " +
+                                           std::to_string(index) + " of " + std::to_string(count) +
+                                           " does not exist");
 }
 
 std::vector<interop::Vertex> all_vertices(const scene::Scene& scene) {
@@ -34,7 +35,8 @@ std::vector<interop::Triangle> all_triangles(const scene::Scene& scene) {
   std::vector<interop::Triangle> triangles;
   interop::uint first = 0, id = 0;
   for (const scene::Instance& instance : scene.instances) {
-    for (const std::uint32_t index : instance.indices) require_index(instance, index, instance.vertices.size(), "vertex");
+    for (const std::uint32_t index : instance.indices)
+      require_index(instance, index, instance.vertices.size(), "vertex");
     for (std::size_t i = 0; i + 2 < instance.indices.size(); i += 3) {
       const std::uint32_t* corner = &instance.indices[i];
       triangles.push_back({first + corner[0], first + corner[1], first + corner[2], id});
@@ -90,7 +92,8 @@ int level_count(int width, int height) {
   return levels;
 }
 
-std::vector<interop::Texture> all_textures(const scene::Scene& scene, const std::vector<gpu::Buffer>& texels) {
+std::vector<interop::Texture> all_textures(const scene::Scene& scene,
+                                           const std::vector<gpu::Buffer>& texels) {
   std::vector<interop::Texture> textures;
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const scene::Texture& t = scene.textures[i];
@@ -113,8 +116,8 @@ DeviceScene::DeviceScene(const scene::Scene& scene, gpu::Device& device)
       textures_(gpu::Buffer::from(device, all_textures(scene, texels_))) {}
 
 interop::Geometry DeviceScene::geometry() const {
-  return {address_of(vertices_), address_of(triangles_), address_of(instance_materials_), address_of(materials_),
-          address_of(textures_)};
+  return {address_of(vertices_), address_of(triangles_), address_of(instance_materials_),
+          address_of(materials_), address_of(textures_)};
 }
 
 }  // namespace vsgl

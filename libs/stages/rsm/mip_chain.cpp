@@ -12,8 +12,12 @@ namespace {
 using Texel = std::array<float, 4>;
 
 // IEC 61966-2-1.
-float srgb_decode(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
-float srgb_encode(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
+float srgb_decode(float c) {
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+float srgb_encode(float c) {
+  return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
+}
 
 struct Level {
   int width, height;
@@ -21,7 +25,8 @@ struct Level {
 
   const Texel& at(int x, int y) const {
     const int column = std::min(x, width - 1), row = std::min(y, height - 1);
-    return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
+    return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(column)];
   }
 };
 
@@ -46,8 +51,8 @@ Level halve(const Level& fine) {
     for (int x = 0; x < coarse.width; ++x) {
       Texel mean;
       for (std::size_t c = 0; c < 4; ++c) {
-        mean[c] = 0.25f * (fine.at(2 * x, 2 * y)[c] + fine.at(2 * x + 1, 2 * y)[c] + fine.at(2 * x, 2 * y + 1)[c] +
-                           fine.at(2 * x + 1, 2 * y + 1)[c]);
+        mean[c] = 0.25f * (fine.at(2 * x, 2 * y)[c] + fine.at(2 * x + 1, 2 * y)[c] +
+                           fine.at(2 * x, 2 * y + 1)[c] + fine.at(2 * x + 1, 2 * y + 1)[c]);
       }
       coarse.texels.push_back(mean);
     }
@@ -69,13 +74,12 @@ void append_encoded(const Level& level, bool srgb, std::vector<std::uint32_t>& o
 }  // namespace
 
 MipChain build_mip_chain(const scene::Texture& texture) {
-  const std::size_t expected = std::size_t{4} * static_cast<std::size_t>(texture.width) *
-                               static_cast<std::size_t>(texture.height);
+  const std::size_t expected =
+      std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
   if (expected == 0 || texture.rgba.size() != expected) {
-    throw Error(ErrorCode::texture_unreadable, "texture \"" + texture.name + "\": " +
-                                                   std::to_string(texture.rgba.size()) + " bytes for " +
-                                                   std::to_string(texture.width) + "x" +
-                                                   std::to_string(texture.height) + " texels");
+    throw Error(ErrorCode::texture_unreadable,
+                "texture \"" + texture.name + "\": " + std::to_string(texture.rgba.size()) + " bytes for " +
+                    std::to_string(texture.width) + "x" + std::to_string(texture.height) + " texels");
   }
   MipChain chain;
   for (Level level = decode(texture);; level = halve(level)) {

@@ -11,7 +11,8 @@ namespace vsgl {
 
 // What a bent (interpolated or normal-mapped) normal does to the light that a surface sends on.
 enum class NormalConvention {
-  consistent,  // as in a path tracer: bends arrival and mirror direction, power scaled by kappa; light leaves by the true normal
+  consistent,  // as in a path tracer: bends arrival and mirror direction, power scaled by kappa; light leaves
+               // by the true normal
   paper,       // as the papers have it: takes the true normal's place in both lobes, power unchanged
 };
 
@@ -20,8 +21,9 @@ struct RsmParams {
   NormalConvention normals = NormalConvention::consistent;
 };
 
-// Rasterises a scene, which must outlive it, from camera and lights. Uploads it once; the device must be able to draw. Throws mesh_invalid when an
-// index points nowhere, bad_light for a degenerate light or two of one name, memory, device_limit.
+// Rasterises a scene, which must outlive it, from camera and lights. Uploads it once; the device must be able
+// to draw. Throws mesh_invalid when an index points nowhere, bad_light for a degenerate light or two of one
+// name, memory, device_limit.
 class Baker {
  public:
   Baker(const scene::Scene& scene, gpu::Device& device, Report& report);

@@ -26,20 +26,24 @@ interop::uint samples_per_side(int width, int height) {
 
 interop::uint view_kind(LightType type) {
   switch (type) {
-    case LightType::spot: return interop::VIEW_SPOT;
-    case LightType::directional: return interop::VIEW_DIRECTIONAL;
-    case LightType::point: return interop::VIEW_POINT;
+    case LightType::spot:
+      return interop::VIEW_SPOT;
+    case LightType::directional:
+      return interop::VIEW_DIRECTIONAL;
+    case LightType::point:
+      return interop::VIEW_POINT;
   }
   throw Error(ErrorCode::internal, "unknown type of light");
 }
 
 void require_sound(const LightSource& light) {
-  const double sum = length(light.intensity) + length(light.position) + length(light.forward) + light.extent_x +
-                     light.extent_y + light.cos_inner + light.cos_outer;
+  const double sum = length(light.intensity) + length(light.position) + length(light.forward) +
+                     light.extent_x + light.extent_y + light.cos_inner + light.cos_outer;
   if (!std::isfinite(sum) || length(light.forward) == 0 || light.extent_x <= 0 || light.extent_y <= 0) {
-    throw Error(ErrorCode::bad_light, "light \"" + light.name +
-                                          "\": position, direction, intensity or cone is not finite or has no extent; "
-                                          "correct the scene file");
+    throw Error(ErrorCode::bad_light,
+                "light \"" + light.name +
+                    "\": position, direction, intensity or cone is not finite or has no extent; "
+                    "correct the scene file");
   }
 }
 
@@ -91,7 +95,8 @@ std::vector<LightView> light_views(const scene::Scene& scene) {
   std::set<std::string> names;
   for (const LightView& view : views) {
     if (!names.insert(view.name).second) {
-      throw Error(ErrorCode::bad_light, "light \"" + view.name + "\": there are two of that name; rename one");
+      throw Error(ErrorCode::bad_light,
+                  "light \"" + view.name + "\": there are two of that name; rename one");
     }
   }
   return views;

@@ -15,8 +15,9 @@ struct LightView {
   LightSource light;
 };
 
-// The scene's lights as views: spots as they are, directional lights framing the scene's bounding sphere, point lights as six cube
-// faces px, nx, py, ny, pz, nz. Throws bad_light for a degenerate light or two of one name.
+// The scene's lights as views: spots as they are, directional lights framing the scene's bounding sphere,
+// point lights as six cube faces px, nx, py, ny, pz, nz. Throws bad_light for a degenerate light or two of
+// one name.
 std::vector<LightView> light_views(const scene::Scene& scene);
 
 interop::View camera_view(const scene::Camera& camera, double scene_radius);

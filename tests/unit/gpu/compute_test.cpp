@@ -79,7 +79,8 @@ TEST(Commands, DispatchWithConstantsAndPush) {
   const ComputePipeline pipeline = affine(device, 0.5f);
   Report report;
   Commands commands(device);
-  commands.dispatch("affine", pipeline, {values, results}, AffinePush{3, kCount}, {groups_for(kCount, 64), 1, 1});
+  commands.dispatch("affine", pipeline, {values, results}, AffinePush{3, kCount},
+                    {groups_for(kCount, 64), 1, 1});
   commands.submit(report);
   const std::vector<float> out = results.download<float>(kCount);
   for (std::uint32_t i = 0; i < kCount; ++i) ASSERT_EQ(out[i], 3 * static_cast<float>(i) + 0.5f) << i;
@@ -127,7 +128,8 @@ TEST(Commands, RangesOfABuffer) {
   const ComputePipeline pipeline = affine(device, 0);
   Report report;
   Commands commands(device);
-  commands.dispatch("affine", pipeline, {{values, 256, 256}, {results, 512, 256}}, AffinePush{1, 64}, {1, 1, 1});
+  commands.dispatch("affine", pipeline, {{values, 256, 256}, {results, 512, 256}}, AffinePush{1, 64},
+                    {1, 1, 1});
   commands.submit(report);
   const std::vector<float> out = results.download<float>(256);
   EXPECT_EQ(out[127], 0);
@@ -143,8 +145,9 @@ TEST(Commands, UniformAndTexelBuffers) {
   Buffer indices = Buffer::from(device, std::vector<std::uint32_t>{2, 0, 1, 1});
   Buffer weights = Buffer::from(device, std::vector<float>{1, 10, 100, 1000});
   Buffer sums(device, 4 * sizeof(float));
-  const ComputePipeline pipeline(device, gather_comp_spv,
-                                 {Binding::texel_rgba32f, Binding::texel_r32ui, Binding::uniform, Binding::storage});
+  const ComputePipeline pipeline(
+      device, gather_comp_spv,
+      {Binding::texel_rgba32f, Binding::texel_r32ui, Binding::uniform, Binding::storage});
   Report report;
   Commands commands(device);
   commands.dispatch("gather", pipeline, {texel_buffer, indices, weights, sums}, {}, {1, 1, 1});
@@ -158,14 +161,26 @@ TEST(Commands, WrongUseIsAnError) {
   const ComputePipeline pipeline = affine(device, 0);
   Commands commands(device);
   const AffinePush push{1, 1};
-  EXPECT_EQ(code_of([&] { commands.dispatch("x", pipeline, {buffer}, push, {1, 1, 1}); }), ErrorCode::internal);
-  EXPECT_EQ(code_of([&] { commands.dispatch("x", pipeline, {buffer, buffer}, 1.0f, {1, 1, 1}); }), ErrorCode::internal);
-  EXPECT_EQ(code_of([&] { commands.dispatch("x", pipeline, {buffer, {buffer, 32, 64}}, push, {1, 1, 1}); }),
+  EXPECT_EQ(code_of([&] {
+              commands.dispatch("x", pipeline, {buffer}, push, {1, 1, 1});
+            }),
             ErrorCode::internal);
-  EXPECT_EQ(code_of([&] { commands.dispatch("x", pipeline, {buffer, buffer}, push, {1u << 20, 1, 1}); }),
+  EXPECT_EQ(code_of([&] {
+              commands.dispatch("x", pipeline, {buffer, buffer}, 1.0f, {1, 1, 1});
+            }),
+            ErrorCode::internal);
+  EXPECT_EQ(code_of([&] {
+              commands.dispatch("x", pipeline, {buffer, {buffer, 32, 64}}, push, {1, 1, 1});
+            }),
+            ErrorCode::internal);
+  EXPECT_EQ(code_of([&] {
+              commands.dispatch("x", pipeline, {buffer, buffer}, push, {1u << 20, 1, 1});
+            }),
             ErrorCode::device_limit);
   Buffer large(device, device.limits().maxStorageBufferRange + 16);
-  EXPECT_EQ(code_of([&] { commands.dispatch("x", pipeline, {large, buffer}, push, {1, 1, 1}); }),
+  EXPECT_EQ(code_of([&] {
+              commands.dispatch("x", pipeline, {large, buffer}, push, {1, 1, 1});
+            }),
             ErrorCode::device_limit);
 }
 
@@ -182,7 +197,8 @@ TEST(Commands, SameBytesOnAnyThreadCountAndWidth) {
     const ComputePipeline pipeline = affine(device, 0.3f);
     Report report;
     Commands commands(device);
-    commands.dispatch("affine", pipeline, {in, out}, AffinePush{0.7f, kCount}, {groups_for(kCount, 64), 1, 1});
+    commands.dispatch("affine", pipeline, {in, out}, AffinePush{0.7f, kCount},
+                      {groups_for(kCount, 64), 1, 1});
     commands.submit(report);
     outputs.push_back(out.download<float>(kCount));
   }

@@ -36,7 +36,9 @@ TEST(Device, AnUnknownNameListsWhatIsThere) {
   }
 }
 
-TEST(Device, AnEmptyNameMatchesNothing) { EXPECT_THROW(Device({.device = ""}), Error); }
+TEST(Device, AnEmptyNameMatchesNothing) {
+  EXPECT_THROW(Device({.device = ""}), Error);
+}
 
 TEST(Device, ComputeOnlyIsWideWhereTheCpuAllowsIt) {
   const Device device({.compute_only = true});
@@ -50,9 +52,7 @@ TEST(Device, ComputeOnlyIsWideWhereTheCpuAllowsIt) {
 }
 
 TEST(Device, LeavesTheEnvironmentAsItWas) {
-  {
-    const Device device({.threads = 1, .compute_only = true});
-  }
+  { const Device device({.threads = 1, .compute_only = true}); }
   EXPECT_EQ(std::getenv("LP_NUM_THREADS"), nullptr);
   EXPECT_EQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), nullptr);
 }

@@ -1,1 +1,1 @@
-vsgl_shaders(unit_gpu test/affine.comp.glsl test/gather.comp.glsl)
+vsgl_shaders(unit_gpu test/affine.comp.glsl test/gather.comp.glsl test/layers.vert.glsl test/layers.frag.glsl)

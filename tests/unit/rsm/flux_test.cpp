@@ -28,7 +28,8 @@ Vec3 spot_integral(const LightSource& light) {
 
 TEST(Flux, HardSpotIsItsSolidAngle) {
   const scene::Scene scene = test::scene_of({test::tilted_plane(0)}, {test::spot(30, 30)});
-  expect_near(test::total_flux(bake(scene, 512)), 2 * pi * (1 - std::cos(30 * kDegree)) * Vec3{1, 2, 3}, 1e-4);
+  expect_near(test::total_flux(bake(scene, 512)), 2 * pi * (1 - std::cos(30 * kDegree)) * Vec3{1, 2, 3},
+              1e-4);
 }
 
 TEST(Flux, SoftSpotIsTheIntegralOfItsFallOff) {

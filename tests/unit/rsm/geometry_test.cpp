@@ -28,7 +28,8 @@ TEST(Geometry, PositionsLieOnTheTiltedPlaneAndTheRay) {
       ASSERT_NEAR(length(to_double(s.normal) - normal), 0, 1e-6);
       ASSERT_NEAR(length(to_double(s.shading_normal) - normal), 0, 1e-6);
       ASSERT_NEAR(static_cast<double>(s.depth), length(p), 1e-5);
-      const Vec3 ray{light.extent_x * ((2 * x + 1) / 64.0 - 1), -light.extent_y * ((2 * y + 1) / 64.0 - 1), -1};
+      const Vec3 ray{light.extent_x * ((2 * x + 1) / 64.0 - 1), -light.extent_y * ((2 * y + 1) / 64.0 - 1),
+                     -1};
       ASSERT_NEAR(length(cross(normalise(p), normalise(ray))), 0, 1e-5) << x << "," << y;
     }
   }
@@ -66,10 +67,9 @@ TEST(Geometry, FootprintsEndAtDepthDiscontinuities) {
 TEST(Geometry, ALoneTexelHasNoFootprint) {
   LightSource light = test::spot(40, 40);
   const double texel = 2 * 2 * light.extent_x / 64;
-  scene::Scene scene =
-      test::scene_of({test::quad({0, -texel, -2}, {texel, 0, 0}, {0, texel, 0}),
-                      test::quad({-50, -50, -12}, {100, 0, 0}, {0, 100, 0})},
-                     {light});
+  scene::Scene scene = test::scene_of({test::quad({0, -texel, -2}, {texel, 0, 0}, {0, texel, 0}),
+                                       test::quad({-50, -50, -12}, {100, 0, 0}, {0, 100, 0})},
+                                      {light});
   const Rsm rsm = bake(scene, 64);
   const std::size_t i = 64 * 32 + 32;
   ASSERT_EQ(rsm.layers[0].surface[i].id, 0u);
@@ -128,7 +128,8 @@ TEST(Geometry, EmptySceneIsAllZero) {
   const Rsm rsm = bake(test::scene_of({}, {test::spot(40, 40)}), 16);
   for (const interop::Surface& s : rsm.layers[0].surface) {
     ASSERT_EQ(s.id, interop::NO_INSTANCE);
-    ASSERT_EQ(length(to_double(s.position)) + length(to_double(s.normal)) + length(to_double(s.shading_normal)), 0);
+    ASSERT_EQ(
+        length(to_double(s.position)) + length(to_double(s.normal)) + length(to_double(s.shading_normal)), 0);
     ASSERT_EQ(length(to_double(s.diffuse)) + length(to_double(s.specular)) + static_cast<double>(s.depth), 0);
   }
   for (const interop::Moments& m : rsm.layers[0].pyramid) {
@@ -142,7 +143,8 @@ TEST(Geometry, EmptySceneIsAllZero) {
 }
 
 TEST(Geometry, CameraSeesTheSceneTheRightWayUp) {
-  scene::Scene scene = test::scene_of({test::quad({1, 0.5, -2}, {0.5, 0, 0}, {0, 0.5, 0})}, {});  // right, above
+  scene::Scene scene =
+      test::scene_of({test::quad({1, 0.5, -2}, {0.5, 0, 0}, {0, 0.5, 0})}, {});  // right, above
   scene.camera.tan_x = 1;
   scene.camera.tan_y = 0.75;
   const GBuffer gbuffer = test::see(scene);

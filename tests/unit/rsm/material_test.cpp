@@ -24,7 +24,8 @@ TEST(Material, DiffusePowerAndLobe) {
   const interop::Moments& m = rsm.layers[0].pyramid[kMiddle];
   const interop::Surface& s = rsm.layers[0].surface[kMiddle];
   EXPECT_FLOAT_EQ(m.power_diffuse.y, 0.25f * m.flux.y);
-  EXPECT_FLOAT_EQ(m.weight, 0.2126f * m.power_diffuse.x + 0.7152f * m.power_diffuse.y + 0.0722f * m.power_diffuse.z);
+  EXPECT_FLOAT_EQ(m.weight,
+                  0.2126f * m.power_diffuse.x + 0.7152f * m.power_diffuse.y + 0.0722f * m.power_diffuse.z);
   const SgLobe lobe = lobe_decode({to_double(m.diffuse_mean), static_cast<double>(m.diffuse_deficit)});
   EXPECT_NEAR(lobe.sharpness, static_cast<double>(interop::LAMBDA_DIFFUSE), 1e-5);
   EXPECT_NEAR(length(lobe.axis - to_double(s.normal)), 0, 1e-6);
@@ -74,7 +75,8 @@ TEST(Material, TexturesScaleTheFactors) {
   material.base_color_texture = 0;
   material.metallic_roughness_texture = 1;
   scene::Scene scene = plane_under_spot(0, material);
-  scene.textures = {test::stripes(4, 4, {{188, 188, 188, 255}}, true), test::stripes(4, 4, {{0, 128, 51, 255}})};
+  scene.textures = {test::stripes(4, 4, {{188, 188, 188, 255}}, true),
+                    test::stripes(4, 4, {{0, 128, 51, 255}})};
   const Rsm rsm = bake(scene, 64);
   const interop::Surface& s = rsm.layers[0].surface[kMiddle];
   const double base = 0.50289;  // sRGB 188
@@ -84,7 +86,8 @@ TEST(Material, TexturesScaleTheFactors) {
   EXPECT_NEAR(static_cast<double>(s.alpha), 0.8 * std::pow(128 / 255.0, 2), 1e-5);
 }
 
-// 512 stripes of black and white over the plane: far finer than a texel, so its mean shows, taken in linear light.
+// 512 stripes of black and white over the plane: far finer than a texel, so its mean shows, taken in linear
+// light.
 TEST(Material, MinifiedTexturesShowTheirMean) {
   scene::Material material = test::diffuse(1);
   material.base_color_texture = 0;
@@ -125,9 +128,9 @@ TEST(Material, CutOutsHaveHoles) {
   scene::Material leaf = test::diffuse(1);
   leaf.base_color_texture = 0;
   leaf.alpha_cutoff = 0.5;
-  scene::Scene scene = test::scene_of({test::quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}),
-                                       test::quad({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}, 1)},
-                                      {});
+  scene::Scene scene = test::scene_of(
+      {test::quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), test::quad({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}, 1)},
+      {});
   scene.materials = {leaf, test::diffuse(0.5)};
   scene.textures = {test::stripes(64, 4, {{255, 255, 255, 0}, {255, 255, 255, 255}})};
   scene.camera.tan_x = scene.camera.tan_y = 1;
@@ -204,7 +207,8 @@ TEST(NormalMap, NormalsBentAwayFromTheLightReflectNothing) {
 
 TEST(NormalMap, KappaIsClampedAndCounted) {
   Report report;
-  const Rsm rsm = bake_rsm(bent_plane(80, -87), {64, 64, NormalConvention::consistent}, test::device(), report);
+  const Rsm rsm =
+      bake_rsm(bent_plane(80, -87), {64, 64, NormalConvention::consistent}, test::device(), report);
   float largest = 0;
   for (std::size_t i = 0; i < rsm.layers[0].surface.size(); ++i) {
     const interop::Moments& m = rsm.layers[0].pyramid[i];

@@ -28,9 +28,12 @@ scene::Scene mixed_scene() {
 
 DoubleMoments widen(const interop::Moments& m) {
   const auto d = [](float v) { return static_cast<double>(v); };
-  return {to_double(m.flux), to_double(m.power_diffuse), to_double(m.power_specular), d(m.weight),
-          to_double(m.position), d(m.spread), to_double(m.diffuse_mean), d(m.diffuse_deficit),
-          to_double(m.specular_mean), d(m.specular_deficit), to_double(m.normal_mean), d(m.normal_deficit)};
+  return {to_double(m.flux),           to_double(m.power_diffuse),
+          to_double(m.power_specular), d(m.weight),
+          to_double(m.position),       d(m.spread),
+          to_double(m.diffuse_mean),   d(m.diffuse_deficit),
+          to_double(m.specular_mean),  d(m.specular_deficit),
+          to_double(m.normal_mean),    d(m.normal_deficit)};
 }
 
 void expect_close(Vec3 a, Vec3 b, double relative, const char* what) {
@@ -69,7 +72,8 @@ TEST(Pyramid, LevelsMergeTheirOwnBlocks) {
   for (const auto& [x, y] : std::vector<std::pair<int, int>>{{7, 8}, {9, 7}, {0, 0}}) {
     std::vector<DoubleMoments> block;
     for (int j = 0; j < 2; ++j) {
-      for (int i = 0; i < 2; ++i) block.push_back(widen(pyramid[static_cast<std::size_t>((2 * y + j) * 32 + 2 * x + i)]));
+      for (int i = 0; i < 2; ++i)
+        block.push_back(widen(pyramid[static_cast<std::size_t>((2 * y + j) * 32 + 2 * x + i)]));
     }
     const DoubleMoments expected = merge_moments(block, quarters);
     const DoubleMoments merged = widen(pyramid[pyramid_offset(32, 1) + static_cast<std::size_t>(16 * y + x)]);
@@ -129,10 +133,11 @@ TEST(Input, IndicesThatPointNowhereAreRefused) {
 
 TEST(Report, SaysWhatWasBakedAndSkipped) {
   Report report;
-  bake_rsm(test::scene_of(test::room(1), {test::spot(30, 30)}), {32, 32, NormalConvention::consistent}, test::device(),
-           report);
+  bake_rsm(test::scene_of(test::room(1), {test::spot(30, 30)}), {32, 32, NormalConvention::consistent},
+           test::device(), report);
   const std::string text = report.to_json().dump();
-  for (const char* part : {"\"triangles\":12", "\"instances\":6", "layer key", "lit_texels", "flux_w", "specular"}) {
+  for (const char* part :
+       {"\"triangles\":12", "\"instances\":6", "layer key", "lit_texels", "flux_w", "specular"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
   }
 }
