@@ -21,7 +21,7 @@ double beckmann_d(double alpha2, double sin2, double cos2);
 double phong_d(double alpha2, double sin2, double cos2);
 double ndf_density(std::uint32_t ndf, double alpha2, double sin2, double cos2);
 
-// Smith's Lambda [Heitz 2014, Eqs. (72), (68)]; Phong takes Beckmann's [Walter 2007, Sec. 5.3].
+// Smith's Lambda [Heitz 2014]; Phong takes Beckmann's [Walter 2007].
 double ggx_lambda(double alpha2, double c);
 double beckmann_lambda(double alpha2, double c);
 double smith_lambda(std::uint32_t ndf, double alpha2, double c);

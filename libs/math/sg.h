@@ -30,7 +30,7 @@ double sg_value(Vec3 w, Vec3 axis, double sharpness);
 // Integral over the sphere, sr: (2 pi / sharpness)(1 - e^(-2 sharpness)).
 double sg_integral(double sharpness);
 
-// [Wang 2009, Eq. (5)] exact product. Equal and opposite lobes have no axis; axis1 stands in.
+// [Wang 2009] exact product. Equal and opposite lobes have no axis; axis1 stands in.
 SgProduct sg_product(Vec3 axis1, double sharpness1, Vec3 axis2, double sharpness2);
 
 // [Tokuyoshi 2022] Mass of the normalised SG above the plane through the origin, c = axis.normal: 0..1. Error

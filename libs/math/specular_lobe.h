@@ -37,7 +37,7 @@ struct SpecularFilter {
   double density = 0, slope_cosine = 1;
 };
 SpecularFilter specular_filter(const SpecularReceiver& r, Vec3 light, double sharpness);
-// [Xu 2013, Eq. (10)] integral of the normalised SG times the BRDF's ASG without its smooth term.
+// [Xu 2013] integral of the normalised SG times the BRDF's ASG without its smooth term.
 double specular_asg_convolved(const SpecularReceiver& r, Vec3 light, double sharpness);
 // BRDF times cosine over the density of normals relative to its peak, in a direction at `cosine` to the
 // normal.

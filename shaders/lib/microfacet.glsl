@@ -53,14 +53,14 @@ float ggx_lambda(float alpha2, float c) {
   return 0.5 * (ggx_slope_cosine(alpha2, c) / c - 1.0);
 }
 
-// [Heitz 2014, Eq. (68)] Smith's Lambda of Beckmann. Absolute error 1e-6, relative 1e-4 at grazing angles.
+// [Heitz 2014] Smith's Lambda of Beckmann. Absolute error 1e-6, relative 1e-4 at grazing angles.
 float beckmann_lambda(float alpha2, float c) {
   c = max(c, COS_MIN);
   float a = c * inversesqrt(max(alpha2 * (1.0 - c * c), 1e-12));
   return max(0.5 * exp(-a * a) * (1.0 / (1.7724538509 * a) - erfc_scaled(a)), 0.0);
 }
 
-// Phong has no closed Lambda; [Walter 2007, Sec. 5.3] gives it Beckmann's at the alpha of equal width.
+// Phong has no closed Lambda; [Walter 2007] gives it Beckmann's at the alpha of equal width.
 float smith_lambda(uint ndf, float alpha2, float c) {
   if (ndf == NDF_GGX) return ggx_lambda(alpha2, c);
   return beckmann_lambda(alpha2, c);
@@ -111,7 +111,7 @@ vec3 dominant_normal(float alpha2, vec3 normal, vec3 view) {
   return normalize(alpha2 * tangential + (c + sqrt(alpha2 * dot(tangential, tangential) + c * c)) * normal);
 }
 
-// [Wang 2009, Eq. (20); Tokuyoshi 2016, A.1] SG of the reflected lobe: axis = mirror direction, sharpness lambda_h / (4 cos).
+// [Wang 2009; Tokuyoshi 2016, A.1] SG of the reflected lobe: axis = mirror direction, sharpness lambda_h / (4 cos).
 SgLobe specular_lobe(uint ndf, float alpha, vec3 normal, vec3 view) {
   float c = dot(view, normal);
   return SgLobe(normalize(2.0 * c * normal - view), ndf_sharpness(ndf, alpha) / (4.0 * max(c, COS_MIN)));

@@ -17,7 +17,7 @@ struct SgProduct {
   float exponent;  // <= 0
 };
 
-// [Wang 2009, Eq. (3)] as exp(-(sharpness / 2) |w - axis|^2).
+// [Wang 2009] as exp(-(sharpness / 2) |w - axis|^2).
 // Deviation: sharpness (w.axis - 1) has an absolute error of 15 in float32 at sharpness 1e8; this form's is below 1e-6.
 float sg_value(vec3 w, vec3 axis, float sharpness) {
   vec3 d = w - axis;
@@ -29,7 +29,7 @@ float sg_integral(float sharpness) {
   return 4.0 * PI * phi(-2.0 * sharpness);
 }
 
-// [Wang 2009, Eq. (5)] exact product. Exponent: absolute error below 5e-6 for any pair of sharpnesses up to 1e12.
+// [Wang 2009] exact product. Exponent: absolute error below 5e-6 for any pair of sharpnesses up to 1e12.
 // Deviation: the exponent l_m - l1 - l2 is multiplied by its conjugate, and opposing axes take the sum of squares, so that
 // nothing cancels. Equal and opposite lobes have no axis; axis1 stands in.
 SgProduct sg_product(vec3 axis1, float sharpness1, vec3 axis2, float sharpness2) {

@@ -137,7 +137,7 @@ float specular_vmf(SpecularReceiver r, vec3 axis, float sharpness) {
   return r.ndf == NDF_GGX ? specular_vmf_ggx(r, axis, sharpness) : specular_vmf_gaussian(r, axis, sharpness);
 }
 
-// [Xu 2013, Eq. (10)] integral of the normalised SG times the BRDF's ASG without its smooth term. Bandwidths: lambda_h / 8 in the plane
+// [Xu 2013] integral of the normalised SG times the BRDF's ASG without its smooth term. Bandwidths: lambda_h / 8 in the plane
 // of incidence and lambda_h / (8 cos^2) across it, with lambda_h = 2 / alpha^2 [Tokuyoshi 2016, A.1]: never small, as the form needs.
 float specular_asg_convolved(SpecularReceiver r, vec3 light, float sharpness) {
   float nu = 0.5 * sharpness;

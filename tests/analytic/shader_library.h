@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -90,6 +91,8 @@ struct LibraryFile {
   std::vector<LibraryCall> calls;  // in the order of the shader's cases
   std::vector<float> appendix{};   // behind the arguments: data that the shader reads on its own
 };
+
+inline void PrintTo(const LibraryFile& file, std::ostream* stream) { *stream << file.name; }  // for GoogleTest
 
 // shader_library_<topic>.cpp.
 std::vector<LibraryFile> gaussian_files();
