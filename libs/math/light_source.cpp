@@ -15,4 +15,8 @@ Vec3 intensity_towards(const LightSource& light, Vec3 to) {
   return spot_falloff(light, dot(to, light.forward)) * light.intensity;
 }
 
+Vec3 direction_to_source(const LightSource& light, Vec3 point) {
+  return light.type == LightType::directional ? -light.forward : normalise(light.position - point);
+}
+
 }  // namespace vsgl

@@ -25,5 +25,7 @@ struct LightSource {
 double spot_falloff(const LightSource& light, double cosine);
 // Radiant intensity towards a point (W/sr), or irradiance (W/m^2) for a directional light. `to`: unit direction from the light.
 Vec3 intensity_towards(const LightSource& light, Vec3 to);
+// Unit direction from a lit point to the source.
+Vec3 direction_to_source(const LightSource& light, Vec3 point);
 
 }  // namespace vsgl

@@ -1,5 +1,6 @@
 #include "stages/lights/filtered.h"
 
+#include "math/light_source.h"
 #include "pyramid/kernels.h"
 
 namespace vsgl {
@@ -16,17 +17,13 @@ Vec3 to_double(interop::vec3 v) {
   return {v.x, v.y, v.z};
 }
 
-Vec3 towards_source(const LightSource& source, Vec3 position) {
-  return source.type == LightType::directional ? -source.forward : normalise(source.position - position);
-}
-
 // Makes the texel under the kernel's centre the light's representative. A cluster whose normals cancel takes
 // the texel's normal.
 void represent(interop::Light& light, const RsmLayer& layer) {
   const interop::Surface& surface = layer.surface[light.texel];
   light.origin = surface.position;
   light.shading_normal = surface.shading_normal;
-  light.incident = to_float(towards_source(layer.light, to_double(surface.position)));
+  light.incident = to_float(direction_to_source(layer.light, to_double(surface.position)));
   light.alpha = surface.alpha;
   light.ndf = surface.ndf;
   if (to_double(light.normal) == Vec3{}) light.normal = surface.normal;

@@ -1,0 +1,79 @@
+// pdf-build --rsm rsm.exr [--gbuffer gbuffer.exr] -o pdf.exr: sampling density over the texels of a
+// reflective shadow map.
+
+#include <optional>
+
+#include "base/tool.h"
+#include "interop/sampling.h"
+#include "stages/pdf/pdf.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  fs::path rsm, gbuffer, output;
+  vsgl::PdfParams params;
+};
+
+std::string list_of_methods() {
+  std::string text;
+  for (const auto& method : vsgl::pdf_methods())
+    text +=
+        (text.empty() ? "" : "\n") + method.name + std::string(11 - method.name.size(), ' ') + method.summary;
+  return text;
+}
+
+void declare(vsgl::Tool& tool, Arguments& a) {
+  CLI::App& app = tool.app();
+  const CLI::Range counts(1, static_cast<int>(vsgl::interop::MAX_POINTS));
+  std::vector<std::string> methods;
+  for (const auto& method : vsgl::pdf_methods()) methods.push_back(method.name);
+  tool.input("--rsm", a.rsm, "reflective shadow map")->required();
+  tool.input("--gbuffer", a.gbuffer, "image that the light is to reach; the brsm methods need it");
+  tool.output("-o,--output", a.output, "density to write")->required();
+  app.add_option("--method", a.params.method, "what the density follows; see --list-methods")
+      ->check(CLI::IsMember(methods));
+  app.add_option("--gbuffer-lights", a.params.gbuffer_lights, "brsm-vsgl: number of lights on the G-buffer")
+      ->check(counts);
+  app.add_option("--view-samples", a.params.view_samples,
+                 "brsm-vpl: number of pixels that each texel is tried on")
+      ->check(counts);
+  app.add_option("--defensive", a.params.defensive, "brsm: share of the flux density that is mixed in")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_flag_callback(
+      "--list-methods", [] { throw CLI::CallForVersion(list_of_methods(), 0); },
+      "print the methods and exit");
+}
+
+vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
+  const auto read = [&](const char* phase, auto reader, const fs::path& path) {
+    const vsgl::PhaseTimer timer(report, phase);
+    return reader(path);
+  };
+  const vsgl::Rsm rsm = read("read rsm", vsgl::read_rsm, a.rsm);
+  std::optional<vsgl::GBuffer> gbuffer;
+  if (!a.gbuffer.empty()) gbuffer = read("read gbuffer", vsgl::read_gbuffer, a.gbuffer);
+  a.params.seed = tool.common().seed;
+  a.params.skip = !tool.common().no_skip;
+
+  vsgl::gpu::Device device(
+      {.device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
+  report.count("device", device.info().name);
+  const vsgl::Pdf pdf = vsgl::build_pdf(rsm, gbuffer ? &*gbuffer : nullptr, a.params, device, report);
+
+  const vsgl::PhaseTimer timer(report, "write");
+  vsgl::write(outputs.add(a.output), pdf, tool.provenance());
+  return vsgl::Exit::ok;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  vsgl::Tool tool("pdf-build", "builds a sampling density over the texels of a reflective shadow map");
+  Arguments arguments;
+  declare(tool, arguments);
+  return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {
+    return run(tool, arguments, report, outputs);
+  });
+}

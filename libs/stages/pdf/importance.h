@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "interop/importance.h"
+#include "stages/pdf/pdf.h"
+
+namespace vsgl {
+
+// A kernel that sums, at every lit texel, the importance that the sources (Importon or Reflector) take from
+// it.
+struct ImportanceKernel {
+  std::span<const std::uint32_t> spirv;
+  std::span<const std::byte> sources;
+  std::size_t source_bytes = 0;  // of one
+  bool specular_sources = true;
+  double distance2 = 0;  // floor of the squared distance, m^2
+};
+TexelValues sum_importance(const Rsm& rsm, const ImportanceKernel& kernel, bool skip, gpu::Device& device,
+                           Report& report);
+
+}  // namespace vsgl
