@@ -13,15 +13,16 @@ std::string without_brackets(const std::string& text) {
   return text.starts_with("[") && text.ends_with("]") ? text.substr(1, text.size() - 2) : text;
 }
 
-// The type and checks of an option: "INT in [1 - 10]", "{a,b}", "FILE".
+// The type and checks of an option: "INT in [1 - 10]", "FLOAT >= 0", "{a,b}", "FILE".
 std::string type_text(const CLI::Option& option) {
   const std::string type = without_brackets(option.get_type_name());
   const auto colon = type.find(':');
   if (colon == std::string::npos) return type;
-  const std::string checks = type.substr(colon + 1);
-  if (checks.front() == '{') return checks;
+  const std::string bound = type.substr(0, colon), checks = type.substr(colon + 1);
+  if (checks == "NONNEGATIVE") return bound + " >= 0";
+  if (checks == "POSITIVE") return bound + " > 0";
   const auto in = checks.find(" in ");
-  return in == std::string::npos ? checks : type.substr(0, colon) + checks.substr(in);
+  return in == std::string::npos ? checks : bound + checks.substr(in);
 }
 
 std::string unknown_flag(const CLI::App& app, const std::string& flag) {
@@ -88,13 +89,18 @@ std::string left_over(const CLI::App& app) {
 
 }  // namespace
 
+std::string HelpFormatter::make_option_name(const CLI::Option* option, bool is_positional) const {
+  const std::string names = CLI::Formatter::make_option_name(option, is_positional);
+  return CLI::detail::find_and_replace(names, ",", ", ");  // "-o, --output"
+}
+
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   if (options::kind_of(*option) == options::Kind::flag) return "";
   std::string text = " " + type_text(*option);
   if (option->get_items_expected_max() > 1 && option->get_delimiter() == '\0') text += " ...";
   if (option->get_required()) text += " (required)";
-  if (!option->get_default_str().empty())
-    text += " (default: " + without_brackets(option->get_default_str()) + ")";
+  const std::string value = without_brackets(option->get_default_str());
+  if (!value.empty()) text += " (default: " + value + ")";
   return text;
 }
 

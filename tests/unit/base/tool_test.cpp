@@ -142,7 +142,7 @@ TEST_F(ToolTest, HelpListsEveryFlagAndVersionNamesTheTool) {
   EXPECT_EQ(help.status, 0);
   for (const std::string flag :
        {"--help", "--version", "--config", "--device", "--threads", "--seed", "--json", "--dry-run",
-        "--overwrite", "--progress", "-q,--quiet", "-v,--verbose", "--no-skip", "-o,--output",
+        "--overwrite", "--progress", "-q, --quiet", "-v, --verbose", "--no-skip", "-o, --output",
         "--count INT in [1 - 1048576] (default: 1024)", "--method {vpl,fis} (default: fis)", "samples lights",
         "scene FILE (required)"}) {
     EXPECT_NE(help.out.find(flag), std::string::npos) << flag << "\n" << help.out;
