@@ -10,6 +10,7 @@
 #include "gpu/raster.h"
 #include "interop/geometry.h"
 #include "interop/model.h"
+#include "math/interop_vec.h"
 #include "pyramid/moment_pyramid.h"
 #include "spirv/rsm/moments.comp.glsl.h"
 #include "spirv/rsm/surface.comp.glsl.h"
@@ -34,20 +35,15 @@ bool is_lit(const interop::Surface& surface) {
   return surface.id != interop::NO_INSTANCE;
 }
 
-double luminance_of(interop::vec3 c) {
-  return luminance({static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)});
-}
-
 void report_layer(const RsmLayer& layer, std::uint32_t clamped, Report& report) {
   const interop::Moments& top = layer.pyramid.back();
   const double count = static_cast<double>(layer.surface.size());
-  const double diffuse = luminance_of(top.power_diffuse), specular = luminance_of(top.power_specular);
+  const double diffuse = luminance(to_double(top.power_diffuse)),
+               specular = luminance(to_double(top.power_specular));
   const double reflected = diffuse + specular;
   report.count("layer " + layer.name,
                {{"lit_texels", std::count_if(layer.surface.begin(), layer.surface.end(), is_lit)},
-                {"flux_w",
-                 {count * static_cast<double>(top.flux.x), count * static_cast<double>(top.flux.y),
-                  count * static_cast<double>(top.flux.z)}},
+                {"flux_w", to_array(count * to_double(top.flux))},
                 {"reflected_luminance_w", count * reflected},
                 {"specular_fraction", reflected > 0 ? specular / reflected : 0.0},
                 {"clamped_texels", clamped}});

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "gpu/address.h"
+#include "math/interop_vec.h"
 #include "stages/rsm/mip_chain.h"
 
 namespace vsgl {
@@ -56,10 +57,6 @@ std::vector<interop::uint> instance_materials(const scene::Scene& scene) {
   return materials;
 }
 
-interop::vec3 to_float(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 int texture_index(const scene::Scene& scene, const scene::Material& material, int index) {
   if (index < static_cast<int>(scene.textures.size())) return index;
   throw Error(ErrorCode::mesh_invalid,
@@ -81,15 +78,9 @@ std::vector<interop::Material> all_materials(const scene::Scene& scene) {
 std::vector<gpu::Buffer> upload_texels(const scene::Scene& scene, gpu::Device& device) {
   std::vector<gpu::Buffer> buffers;
   for (const scene::Texture& texture : scene.textures) {
-    buffers.push_back(gpu::Buffer::from(device, build_mip_chain(texture).texels));
+    buffers.push_back(gpu::Buffer::from(device, build_mip_chain(texture)));
   }
   return buffers;
-}
-
-int level_count(int width, int height) {
-  int levels = 1;
-  while ((width >> levels) > 0 || (height >> levels) > 0) ++levels;
-  return levels;
 }
 
 std::vector<interop::Texture> all_textures(const scene::Scene& scene,
@@ -99,7 +90,7 @@ std::vector<interop::Texture> all_textures(const scene::Scene& scene,
     const scene::Texture& t = scene.textures[i];
     textures.push_back({address_of(texels[i]), static_cast<interop::uint>(t.width),
                         static_cast<interop::uint>(t.height),
-                        static_cast<interop::uint>(level_count(t.width, t.height)), t.srgb ? 1u : 0u});
+                        static_cast<interop::uint>(mip_levels(t.width, t.height)), t.srgb ? 1u : 0u});
   }
   return textures;
 }

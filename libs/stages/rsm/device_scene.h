@@ -22,7 +22,7 @@ class DeviceScene {
  private:
   std::uint32_t triangle_count_ = 0;
   gpu::Buffer vertices_, triangles_, instance_materials_, materials_;
-  std::vector<gpu::Buffer> texels_;
+  std::vector<gpu::Buffer> texels_;  // a buffer per texture
   gpu::Buffer textures_;
 };
 

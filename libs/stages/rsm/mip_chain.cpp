@@ -73,7 +73,13 @@ void append_encoded(const Level& level, bool srgb, std::vector<std::uint32_t>& o
 
 }  // namespace
 
-MipChain build_mip_chain(const scene::Texture& texture) {
+int mip_levels(int width, int height) {
+  int levels = 1;
+  while (std::max(width, height) >> levels > 0) ++levels;
+  return levels;
+}
+
+std::vector<std::uint32_t> build_mip_chain(const scene::Texture& texture) {
   const std::size_t expected =
       std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
   if (expected == 0 || texture.rgba.size() != expected) {
@@ -81,12 +87,14 @@ MipChain build_mip_chain(const scene::Texture& texture) {
                 "texture \"" + texture.name + "\": " + std::to_string(texture.rgba.size()) + " bytes for " +
                     std::to_string(texture.width) + "x" + std::to_string(texture.height) + " texels");
   }
-  MipChain chain;
-  for (Level level = decode(texture);; level = halve(level)) {
-    append_encoded(level, texture.srgb, chain.texels);
-    ++chain.levels;
-    if (level.width == 1 && level.height == 1) return chain;
+  std::vector<std::uint32_t> words;
+  Level level = decode(texture);
+  append_encoded(level, texture.srgb, words);
+  for (int i = 1; i < mip_levels(texture.width, texture.height); ++i) {
+    level = halve(level);
+    append_encoded(level, texture.srgb, words);
   }
+  return words;
 }
 
 }  // namespace vsgl

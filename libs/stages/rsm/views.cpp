@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "math/interop_vec.h"
 #include "stages/rsm/rsm.h"
 
 namespace vsgl {
@@ -14,10 +15,6 @@ namespace {
 constexpr double kNear = 1e-4;
 // Room about the bounding sphere in a directional light's view, so that rounding cuts nothing off.
 constexpr double kFrameMargin = 1.001;
-
-interop::vec3 to_float(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 // Points a side at which a texel's intensity is taken: the more, the fewer texels there are.
 interop::uint samples_per_side(int width, int height) {

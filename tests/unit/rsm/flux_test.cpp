@@ -101,12 +101,12 @@ TEST(Flux, CubeFacesLookTheRightWay) {
   const Vec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (std::size_t face = 0; face < 6; ++face) {
     for (const interop::Surface& s : rsm.layers[face].surface) {
-      ASSERT_NEAR(dot(test::to_double(s.position), axes[face]), 1, 1e-6) << rsm.layers[face].name;
-      ASSERT_NEAR(dot(test::to_double(s.normal), axes[face]), -1, 1e-6);
+      ASSERT_NEAR(dot(to_double(s.position), axes[face]), 1, 1e-6) << rsm.layers[face].name;
+      ASSERT_NEAR(dot(to_double(s.normal), axes[face]), -1, 1e-6);
     }
     // The top row is on the side of `up`, the left column away from `right`.
     const LightSource& view = rsm.layers[face].light;
-    const Vec3 corner = test::to_double(rsm.layers[face].surface.front().position);
+    const Vec3 corner = to_double(rsm.layers[face].surface.front().position);
     EXPECT_GT(dot(corner, view.up), 0.9);
     EXPECT_LT(dot(corner, view.right), -0.9);
     EXPECT_EQ(cross(view.right, view.up), -view.forward);

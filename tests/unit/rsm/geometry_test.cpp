@@ -7,7 +7,6 @@ namespace vsgl {
 namespace {
 
 using test::bake;
-using test::to_double;
 
 const interop::Surface& at(const RsmLayer& layer, int size, int x, int y) {
   return layer.surface[static_cast<std::size_t>(size * y + x)];

@@ -9,7 +9,6 @@ namespace vsgl {
 namespace {
 
 using test::bake;
-using test::to_double;
 
 constexpr std::size_t kMiddle = 64 * 31 + 40;  // a lit texel off the axis, of 64x64
 

@@ -8,6 +8,7 @@
 
 #include "gpu/device.h"
 #include "interop/model.h"
+#include "math/interop_vec.h"
 #include "scene/scene.h"
 #include "stages/rsm/rsm.h"
 
@@ -27,7 +28,7 @@ inline scene::Material diffuse(double reflectance) {
   return material;
 }
 
-inline std::array<float, 3> to_float(Vec3 v) {
+inline std::array<float, 3> to_array3(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
@@ -39,8 +40,8 @@ inline scene::Instance quad(Vec3 corner, Vec3 u, Vec3 v, int material = 0) {
   const Vec3 n = normalise(cross(u, v)), t = normalise(u);
   for (const auto& [a, b] : std::vector<std::pair<double, double>>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
     instance.vertices.push_back(
-        {to_float(corner + a * u + b * v),
-         to_float(n),
+        {to_array3(corner + a * u + b * v),
+         to_array3(n),
          {static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z), 1},
          {static_cast<float>(a), static_cast<float>(b)}});
   }
@@ -115,10 +116,6 @@ inline Rsm bake(const scene::Scene& scene, int size) {
 inline GBuffer see(const scene::Scene& scene) {
   Report report;
   return bake_gbuffer(scene, device(), report);
-}
-
-inline Vec3 to_double(interop::vec3 v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
 // Flux of all layers, W.
