@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "artifact/header.h"
 #include "base/tool.h"
@@ -149,6 +150,8 @@ void write_pictures(const Arguments& a, const vsgl::ExrFile& test, const vsgl::E
 
 vsgl::Exit run(const Arguments& a, const vsgl::Tool& tool, const vsgl::metrics::Options& options,
                vsgl::Report& report, vsgl::OutputSet& outputs) {
+  const int threads = tool.common().threads;
+  vsgl::set_exr_threads(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
   const auto read = [&](const fs::path& path) {
     const vsgl::PhaseTimer timer(report, "read");
     return vsgl::read_exr(path);

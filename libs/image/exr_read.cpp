@@ -16,6 +16,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 
 #include <algorithm>
+#include <fstream>
 #include <new>
 
 #include "base/error.h"
@@ -189,9 +190,10 @@ ExrPart read_part(Imf::MultiPartInputFile& file, int index) {
 }  // namespace
 
 ExrFile read_exr(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path))
+  if (!std::filesystem::is_regular_file(path) || !std::ifstream(path))
     throw Error(ErrorCode::file_not_found,
-                path.string() + ": no such file; check the path, or run the tool that writes it");
+                path.string() +
+                    ": no such file, or it cannot be opened; check the path, or run the tool that writes it");
   Imf::Header::setMaxImageSize(kMaxWidth, kMaxHeight);
   Imf::Header::setMaxTileSize(kMaxTileSide, kMaxTileSide);
   try {
