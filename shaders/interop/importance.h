@@ -43,9 +43,11 @@ struct ImportancePush {
   float distance2;   // floor of the squared distance of view samples, m^2
 };
 
-// Specialisation constants: 1 where specular lobes occur.
-VSGL_CONST uint IMPORTANCE_SPECULAR_TEXELS_ID = 0u;
-VSGL_CONST uint IMPORTANCE_SPECULAR_SOURCES_ID = 1u;
+// Specialisation constants: NDF_* of all texels in the list and of all specular sources, NDF_NONE: no specular lobe,
+// IMPORTANCE_NDF_ANY: each has its own.
+VSGL_CONST uint IMPORTANCE_TEXEL_NDF_ID = 0u;
+VSGL_CONST uint IMPORTANCE_SOURCE_NDF_ID = 1u;
+VSGL_CONST uint IMPORTANCE_NDF_ANY = 4u;
 
 // Moments of a G-buffer seen as a reflective shadow map whose light is the camera, a flux of 1 arriving at every pixel.
 struct ImageMomentsPush {

@@ -11,20 +11,18 @@
 
 Reflector make_texel(Reflector r) { return r; }
 
-// BRDF times cosine towards `w`, per component of reflectance.
-vec3 reflect_towards(Reflector r, vec3 w, bool specular) {
+// BRDF times cosine towards `w`, per component of reflectance. `kind`: NDF of all that are specular, a constant.
+vec3 reflect_towards(Reflector r, vec3 w, uint kind) {
   vec3 value = r.diffuse * max(dot(r.normal, w), 0.0) / PI;
-  if (specular && r.ndf != NDF_NONE)
-    value += r.specular * specular_brdf_cos(r.ndf, r.alpha, r.shading_normal, r.incident, w);
-  return value;
+  if (kind == NDF_NONE) return value;
+  return value + r.specular * specular_brdf_cos(kind == IMPORTANCE_NDF_ANY ? r.ndf : kind, r.alpha, r.shading_normal, r.incident, w);
 }
 
 float importance(Reflector texel, Reflector pixel) {
   const vec3 v = pixel.position - texel.position;
   const float d2 = dot(v, v);
   const vec3 w = v * inversesqrt(max(d2, 1e-36));
-  return dot(reflect_towards(texel, w, SPECULAR_TEXELS != 0u), reflect_towards(pixel, -w, SPECULAR_SOURCES != 0u)) /
-         max(d2, push.distance2);
+  return dot(reflect_towards(texel, w, TEXEL_NDF), reflect_towards(pixel, -w, SOURCE_NDF)) / max(d2, push.distance2);
 }
 
 #include "pdf/loop.glsl"

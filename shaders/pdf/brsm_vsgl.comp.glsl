@@ -8,37 +8,49 @@
 #define SOURCE Importon
 #define TEXEL Texel
 #include "pdf/importance.glsl"
-#include "lib/vsgl.glsl"
+#include "shading/fused.glsl"
 
 struct Texel {
   vec3 position, normal, diffuse, specular;
   SpecularReceiver lobe;
+  float slope_view;  // ggx_slope_cosine of the view
 };
 
 Texel make_texel(Reflector r) {
   Texel texel;
+  const uint ndf = TEXEL_NDF == IMPORTANCE_NDF_ANY ? r.ndf : TEXEL_NDF;
   texel.position = r.position;
   texel.normal = r.normal;
   texel.diffuse = r.diffuse;
   texel.specular = r.specular;
-  if (SPECULAR_TEXELS != 0u) texel.lobe = specular_receiver(r.ndf, r.alpha, r.shading_normal, r.incident);
+  texel.lobe = specular_receiver(ndf, r.alpha, r.shading_normal, r.incident);
+  texel.slope_view = ggx_slope_cosine(texel.lobe.alpha2, texel.lobe.cos_view);
   return texel;
 }
 
+// The specular lobe's answer to the normalised SG, 1/sr.
+float specular_answer(Texel texel, Incoming incoming) {
+  const vec3 light = specular_local(texel.lobe, incoming.axis);
+  if (texel.lobe.ndf == NDF_GGX) return fast_specular_ggx(texel.lobe, light, incoming, texel.slope_view);
+  return fast_specular_gaussian(texel.lobe, light, incoming);
+}
+
 // [Tokuyoshi 2016, section C.2] one emission lobe of the importon, reflected by the texel.
-float receive(Texel texel, VsglIncoming incoming, vec3 peak) {
-  float reflected = dot(texel.diffuse, peak) / PI * cosine_mean(dot(incoming.axis, texel.normal), incoming.sharpness);
-  if (SPECULAR_TEXELS != 0u)
-    reflected += dot(texel.specular, peak) * specular_vmf(texel.lobe, incoming.axis, incoming.sharpness);
-  return incoming.fluence * reflected;
+float receive(Texel texel, Incoming incoming, vec3 peak) {
+  float sum = dot(texel.diffuse, peak) / PI * received_cosine(incoming, dot(incoming.axis, texel.normal));
+  if (TEXEL_NDF != NDF_NONE)
+    sum += dot(texel.specular, peak) * incoming.amplitude * incoming.phi * (1.0 + incoming.decay) * specular_answer(texel, incoming);
+  return sum;
 }
 
 float importance(Texel texel, Importon importon) {
   const vec3 v = importon.position - texel.position;
-  float sum = receive(texel, vsgl_incoming(v, importon.variance, importon.diffuse_axis, importon.diffuse_sharpness),
+  const float d2 = dot(v, v), inverse_variance = 1.0 / importon.variance;
+  const vec3 u = v * inversesqrt(max(d2, 1e-36));
+  float sum = receive(texel, incoming_light(u, d2, importon.variance, inverse_variance, importon.diffuse_axis, importon.diffuse_sharpness),
                       importon.diffuse_peak);
-  if (SPECULAR_SOURCES != 0u)
-    sum += receive(texel, vsgl_incoming(v, importon.variance, importon.specular_axis, importon.specular_sharpness),
+  if (SOURCE_NDF != NDF_NONE)
+    sum += receive(texel, incoming_light(u, d2, importon.variance, inverse_variance, importon.specular_axis, importon.specular_sharpness),
                    importon.specular_peak);
   return sum;
 }

@@ -11,8 +11,8 @@
 
 layout(local_size_x = IMPORTANCE_GROUP) in;
 
-layout(constant_id = IMPORTANCE_SPECULAR_TEXELS_ID) const uint SPECULAR_TEXELS = 1u;
-layout(constant_id = IMPORTANCE_SPECULAR_SOURCES_ID) const uint SPECULAR_SOURCES = 1u;
+layout(constant_id = IMPORTANCE_TEXEL_NDF_ID) const uint TEXEL_NDF = IMPORTANCE_NDF_ANY;
+layout(constant_id = IMPORTANCE_SOURCE_NDF_ID) const uint SOURCE_NDF = IMPORTANCE_NDF_ANY;
 
 layout(scalar, binding = 0) readonly buffer Texels { Reflector texels[]; };
 layout(scalar, binding = 1) uniform Sources { SOURCE sources[IMPORTANCE_BLOCK]; };

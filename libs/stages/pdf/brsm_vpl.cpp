@@ -80,7 +80,7 @@ TexelValues brsm_vpl_values(const Rsm& rsm, const GBuffer* gbuffer, const PdfPar
   kernel.spirv = brsm_vpl_comp_spv;
   kernel.sources = std::as_bytes(std::span(samples));
   kernel.source_bytes = sizeof(Reflector);
-  kernel.specular_sources = !params.skip || gbuffer->has_specular();
+  kernel.source_ndf = common_ndf(*gbuffer, params.skip);
   kernel.distance2 = std::pow(distance_floor * gbuffer->scene_radius, 2);
   return sum_importance(rsm, kernel, params.skip, device, report);
 }

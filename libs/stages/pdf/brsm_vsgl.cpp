@@ -99,7 +99,7 @@ TexelValues brsm_vsgl_values(const Rsm& rsm, const GBuffer* gbuffer, const PdfPa
   kernel.spirv = brsm_vsgl_comp_spv;
   kernel.sources = std::as_bytes(std::span(importons));
   kernel.source_bytes = sizeof(Importon);
-  kernel.specular_sources = !params.skip || gbuffer->has_specular();
+  kernel.source_ndf = common_ndf(*gbuffer, params.skip);
   return sum_importance(rsm, kernel, params.skip, device, report);
 }
 

@@ -11,11 +11,13 @@ namespace {
 
 using interop::Reflector;
 
-// Lit texels of one kind, so that a pipeline without specular lobes can serve the diffuse ones.
+// Lit texels that one pipeline serves.
 struct TexelList {
   std::vector<Reflector> texels;
   std::vector<double*> values;  // where each texel's result goes
 };
+// By NDF_* or IMPORTANCE_NDF_ANY.
+using TexelLists = std::array<TexelList, interop::IMPORTANCE_NDF_ANY + 1>;
 
 interop::vec3 luminance_weighted(interop::vec3 c) {
   return {0.2126f * c.x, 0.7152f * c.y, 0.0722f * c.z};
@@ -35,14 +37,14 @@ Reflector make_reflector(const RsmLayer& layer, std::size_t texel) {
           luminance_weighted(m.power_specular)};
 }
 
-// Texels with power, in order: diffuse ones (none unless `split`) and those with a specular lobe.
-std::array<TexelList, 2> collect_lit(const Rsm& rsm, bool split, TexelValues& values) {
-  std::array<TexelList, 2> lists;
+// Texels with power, in order: by their NDF, so that none pays for lobes that it lacks, or all together.
+TexelLists collect_lit(const Rsm& rsm, bool skip, TexelValues& values) {
+  TexelLists lists;
   for (std::size_t k = 0; k < rsm.layers.size(); ++k) {
     const RsmLayer& layer = rsm.layers[k];
     for (std::size_t i = 0; i < layer.surface.size(); ++i) {
       if (layer.pyramid[i].weight <= 0) continue;
-      TexelList& list = lists[split && layer.surface[i].ndf == interop::NDF_NONE ? 0 : 1];
+      TexelList& list = lists[skip ? layer.surface[i].ndf : interop::IMPORTANCE_NDF_ANY];
       list.texels.push_back(make_reflector(layer, i));
       list.values.push_back(&values[k][i]);
     }
@@ -52,13 +54,13 @@ std::array<TexelList, 2> collect_lit(const Rsm& rsm, bool split, TexelValues& va
 
 class Pass {
  public:
-  Pass(const ImportanceKernel& kernel, bool specular_texels, gpu::Device& device)
+  Pass(const ImportanceKernel& kernel, std::uint32_t texel_ndf, gpu::Device& device)
       : kernel_(kernel),
         device_(device),
         pipeline_(device, kernel.spirv, {gpu::Binding::storage, gpu::Binding::uniform, gpu::Binding::storage},
                   sizeof(interop::ImportancePush),
-                  {{interop::IMPORTANCE_SPECULAR_TEXELS_ID, specular_texels},
-                   {interop::IMPORTANCE_SPECULAR_SOURCES_ID, kernel.specular_sources}}) {}
+                  {{interop::IMPORTANCE_TEXEL_NDF_ID, texel_ndf},
+                   {interop::IMPORTANCE_SOURCE_NDF_ID, kernel.source_ndf}}) {}
 
   void run(const TexelList& list, Report& report) {
     gpu::Buffer texels = gpu::Buffer::from(device_, list.texels);
@@ -98,20 +100,34 @@ class Pass {
 
 }  // namespace
 
+std::uint32_t common_ndf(const GBuffer& gbuffer, bool skip) {
+  if (!skip) return interop::IMPORTANCE_NDF_ANY;
+  std::uint32_t common = interop::NDF_NONE;
+  for (const interop::Surface& s : gbuffer.pixels) {
+    if (s.ndf == interop::NDF_NONE || s.ndf == common) continue;
+    if (common != interop::NDF_NONE) return interop::IMPORTANCE_NDF_ANY;
+    common = s.ndf;
+  }
+  return common;
+}
+
 TexelValues sum_importance(const Rsm& rsm, const ImportanceKernel& kernel, bool skip, gpu::Device& device,
                            Report& report) {
   PhaseTimer timer(report, "importance");
   TexelValues values;
   for (const RsmLayer& layer : rsm.layers) values.emplace_back(layer.surface.size());
-  const auto lists = collect_lit(rsm, skip, values);
-  for (std::size_t specular = 0; specular < lists.size(); ++specular)
-    if (!lists[specular].texels.empty()) Pass(kernel, specular != 0, device).run(lists[specular], report);
-  const std::size_t lit = lists[0].texels.size() + lists[1].texels.size();
+  const TexelLists lists = collect_lit(rsm, skip, values);
+  std::size_t lit = 0;
+  for (std::uint32_t ndf = 0; ndf < lists.size(); ++ndf) {
+    if (lists[ndf].texels.empty()) continue;
+    Pass(kernel, ndf, device).run(lists[ndf], report);
+    lit += lists[ndf].texels.size();
+  }
   report.count("lit_texels", lit);
   report.count("evaluations", lit * (kernel.sources.size() / kernel.source_bytes));
-  if (lists[1].texels.empty())
+  if (lists[interop::NDF_NONE].texels.size() == lit)
     report.skipped("specular reflection of texels", "no texel has a specular lobe");
-  if (!kernel.specular_sources)
+  if (kernel.source_ndf == interop::NDF_NONE)
     report.skipped("specular reflection of pixels", "no pixel has a specular lobe");
   return values;
 }
