@@ -66,10 +66,6 @@ double specular_brdf_cos(std::uint32_t ndf, double alpha, Vec3 normal, Vec3 view
   return ndf_density(ndf, alpha2, dot(t, t) / hh, hn * hn / hh) / (4 * cos_view * masking);
 }
 
-double ggx_brdf_cos(double alpha2, Vec3 normal, Vec3 view, Vec3 light) {
-  return specular_brdf_cos(NDF_GGX, std::sqrt(alpha2), normal, view, light);
-}
-
 Vec3 dominant_normal(double alpha2, Vec3 normal, Vec3 view) {
   const double c = std::max(dot(view, normal), cos_min);
   const Vec3 tangential = view - dot(view, normal) * normal;

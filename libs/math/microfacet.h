@@ -33,7 +33,6 @@ double ndf_sharpness(std::uint32_t ndf, double alpha);
 
 // BRDF times cosine of `light`, 1/sr: D G2 / (4 view.normal); zero below the horizon.
 double specular_brdf_cos(std::uint32_t ndf, double alpha, Vec3 normal, Vec3 view, Vec3 light);
-double ggx_brdf_cos(double alpha2, Vec3 normal, Vec3 view, Vec3 light);
 
 // Normal towards which the lobe of a rough surface leans at grazing angles.
 Vec3 dominant_normal(double alpha2, Vec3 normal, Vec3 view);

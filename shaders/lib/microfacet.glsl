@@ -91,19 +91,6 @@ float specular_brdf_cos(uint ndf, float alpha, vec3 normal, vec3 view, vec3 ligh
   return cos_light > 0.0 ? d / (4.0 * cos_view * masking) : 0.0;
 }
 
-// The same for GGX with one division: G2 / (4 c_v) = c_l / (2 (s_v c_l + s_l c_v)), s = ggx_slope_cosine.
-float ggx_brdf_cos(float alpha2, vec3 normal, vec3 view, vec3 light) {
-  float cos_view = max(dot(view, normal), COS_MIN);
-  float cos_light = max(dot(light, normal), 0.0);
-  vec3 h = view + light;
-  float hn = dot(h, normal);
-  vec3 t = h - hn * normal;
-  float hh = max(dot(h, h), 1e-8);
-  float q = max(dot(t, t) + alpha2 * hn * hn, alpha2 * hh);
-  float s = ggx_slope_cosine(alpha2, cos_view) * cos_light + ggx_slope_cosine(alpha2, cos_light) * cos_view;
-  return alpha2 * hh * hh * cos_light / (2.0 * PI * q * q * s);
-}
-
 // Normal towards which the lobe of a rough surface leans at grazing angles: the mean of the visible GGX normals points there.
 vec3 dominant_normal(float alpha2, vec3 normal, vec3 view) {
   float c = max(dot(view, normal), COS_MIN);

@@ -31,12 +31,11 @@ SpecularReceiver specular_receiver(uint ndf, float alpha, vec3 normal, vec3 view
   r.cos_view = max(c, COS_MIN);
   r.alpha2 = alpha * alpha;
   r.across = ndf_sharpness(ndf, alpha) / (4.0 * r.cos_view * r.cos_view);
-  // Reflection at the dominant normal m: 2 (view.m) m - view.
-  vec2 m = vec2(r.alpha2 * r.sin_view, r.cos_view + sqrt(r.alpha2 * t2 + r.cos_view * r.cos_view));
-  m *= inversesqrt(dot(m, m));
-  vec2 v = vec2(r.sin_view, r.cos_view);
+  // Reflection at the dominant normal m.
+  vec3 v = vec3(r.sin_view, 0.0, r.cos_view);
+  vec3 m = dominant_normal(r.alpha2, vec3(0.0, 0.0, 1.0), v);
   float sharpness = (1.0 - alpha) * (1.0 + alpha) / (2.0 * r.alpha2);
-  r.mirror = sharpness * (2.0 * dot(v, m) * m - v);
+  r.mirror = sharpness * (2.0 * dot(v, m) * m - v).xz;
   r.view_lambda = smith_lambda(ndf, r.alpha2, r.cos_view);
   r.ndf = ndf;
   return r;

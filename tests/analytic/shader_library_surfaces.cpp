@@ -158,14 +158,6 @@ LibraryFile microfacet() {
               return specular_brdf_cos(ndf, alpha, normal, view, a.take3());
             },
             {2e-3, 1e-6}},
-           {"ggx_brdf_cos",
-            combinations({squared_alphas(), normals_and_views(), lights}),
-            [](Arguments& a) {
-              const double alpha2 = a.take();
-              const Vec3 normal = a.take3(), view = a.take3();
-              return ggx_brdf_cos(alpha2, normal, view, a.take3());
-            },
-            {2e-3, 1e-6}},
            {"dominant_normal",
             combinations({squared_alphas(), normals_and_views()}),
             [](Arguments& a) {

@@ -17,8 +17,7 @@ void call() {
     case 7u: put(smith_lambda(take_uint(), take(), take())); break;
     case 8u: put(ndf_sharpness(take_uint(), take())); break;
     case 9u: put(specular_brdf_cos(take_uint(), take(), take3(), take3(), take3())); break;
-    case 10u: put(ggx_brdf_cos(take(), take3(), take3(), take3())); break;
-    case 11u: put(dominant_normal(take(), take3(), take3())); break;
-    case 12u: put(specular_lobe(take_uint(), take(), take3(), take3())); break;
+    case 10u: put(dominant_normal(take(), take3(), take3())); break;
+    case 11u: put(specular_lobe(take_uint(), take(), take3(), take3())); break;
   }
 }
