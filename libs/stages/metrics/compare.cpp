@@ -35,7 +35,9 @@ class Comparer {
     part_ = (pair.reference ? pair.reference : pair.test)->name;
     level_ = 0;
     if (!pair.test || !pair.reference)
-      return fail("missing_part", "", "the part is missing in " + (pair.test ? reference_ : test_).path);
+      return fail("missing_part", "",
+                  std::string(part_.empty() ? "the unnamed part" : "the part") + " is missing in " +
+                      (pair.test ? reference_ : test_).path);
     const std::size_t a = pair.test->levels.size(), b = pair.reference->levels.size();
     for (std::size_t l = 0; l < std::max(a, b); ++l) {
       level_ = static_cast<int>(l);
