@@ -121,6 +121,17 @@ std::optional<Vec3> read_specular(const JsonValue& material) {
   return Vec3{reflectance(colour.x), reflectance(colour.y), reflectance(colour.z)};
 }
 
+// Materials of one name cannot be told apart.
+void add_specular(const JsonValue& material, GltfDocument& out) {
+  const auto specular = read_specular(material);
+  if (!specular) return;
+  const auto [entry, fresh] = out.specular.try_emplace(name_of(material, ""), *specular);
+  if (!fresh && entry->second != *specular) {
+    out.warnings.push_back(material.where() + ": several materials are called \"" + entry->first +
+                           "\"; all take the specular reflectance of the first");
+  }
+}
+
 // The image files that a material's base-colour, metallic-roughness and normal textures refer to.
 void collect_images(const JsonValue& json, const JsonValue& material, const fs::path& folder,
                     std::vector<fs::path>& files) {
@@ -171,7 +182,7 @@ GltfDocument read_document(const fs::path& path) {
       out.lights.push_back(read_light(lights[i], i, out.warnings));
   }
   for (const JsonValue& material : items(json, "materials")) {
-    out.specular.push_back(read_specular(material));
+    add_specular(material, out);
     collect_images(json, material, path.parent_path(), out.files);
   }
   const auto nodes = items(json, "nodes");

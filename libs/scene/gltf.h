@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,8 +38,9 @@ struct GltfDocument {
   std::vector<int> roots;  // of the default scene
   std::vector<GltfCamera> cameras;
   std::vector<GltfLight> lights;
-  std::vector<std::optional<Vec3>>
-      specular;  // per material: KHR_materials_specular's reflectance at normal incidence
+  // By material name: KHR_materials_specular's reflectance at normal incidence. Assimp 5.2 hands over materials
+  // in another order.
+  std::map<std::string, Vec3> specular;
   std::vector<std::filesystem::path> files;  // external buffers, and images that materials use
   std::vector<std::string> warnings;
 };

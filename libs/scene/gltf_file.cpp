@@ -141,7 +141,8 @@ struct Accessor {
   std::optional<View> view;  // none: all zero
   std::size_t offset = 0, count = 0, stride = 0;
   int component_type = 0;
-  bool scalar = false, sparse = false;
+  std::size_t components = 1;  // 3 for VEC3
+  bool sparse = false;
 };
 
 std::size_t component_size(const JsonValue& type) {
@@ -198,8 +199,8 @@ class Checker {
     accessor.component_type = static_cast<int>(value.at("componentType").integer(0, max_int));
     const std::string type =
         value.at("type").choice({"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
-    accessor.scalar = type == "SCALAR";
-    const std::size_t size = component_size(value.at("componentType")) * component_count(type);
+    accessor.components = component_count(type);
+    const std::size_t size = component_size(value.at("componentType")) * accessor.components;
     if (const auto view = value.find("bufferView")) {
       accessor.view = views_[index(*view, views_.size())];
       accessor.stride = accessor.view->stride > 0 ? accessor.view->stride : size;
@@ -227,7 +228,7 @@ class Checker {
       const View& view = views_[index(part.at("bufferView"), views_.size())];
       const auto offset = static_cast<std::size_t>(optional_integer(part, "byteOffset", 0));
       check_extent(part, view, offset + count * size);
-      return Accessor{view, offset, count, size, 0, true, false};
+      return Accessor{view, offset, count, size, 0, 1, false};
     };
     const std::size_t index_size = component_size(indices.at("componentType"));
     Accessor positions = check(indices, index_size);
@@ -236,15 +237,27 @@ class Checker {
     check(values, value_size);
   }
 
+  // The attributes that are read must have the type that the specification gives them.
+  static void check_type(const JsonValue& attribute, const std::string& name, const Accessor& accessor) {
+    constexpr int floats = 5126;
+    const bool vector = name == "POSITION" || name == "NORMAL", tangent = name == "TANGENT";
+    const bool coordinate = name.starts_with("TEXCOORD_");
+    const bool wrong = ((vector && accessor.components != 3) || (tangent && accessor.components != 4) ||
+                        (coordinate && accessor.components != 2)) ||
+                       ((vector || tangent) && accessor.component_type != floats);
+    if (wrong) broken(attribute.where(), "the accessor has the wrong type for " + name);
+  }
+
   void check_primitive(const JsonValue& primitive) const {
     const JsonValue attributes = primitive.at("attributes");
     const Accessor& position = accessor_of(attributes.at("POSITION"));
     for (const std::string& name : attributes.keys()) {
       const JsonValue attribute = attributes.at(name);
-      const std::size_t count = accessor_of(attribute).count;
-      if (count != position.count) {
-        broken(attribute.where(),
-               std::to_string(count) + " values for " + std::to_string(position.count) + " vertices");
+      const Accessor& accessor = accessor_of(attribute);
+      check_type(attribute, name, accessor);
+      if (accessor.count != position.count) {
+        broken(attribute.where(), std::to_string(accessor.count) + " values for " +
+                                      std::to_string(position.count) + " vertices");
       }
     }
     if (const auto indices = primitive.find("indices")) {
@@ -261,8 +274,8 @@ class Checker {
 
   // Every value must be below `limit`.
   void check_indices(const JsonValue& where, const Accessor& accessor, std::size_t limit) const {
-    if (!accessor.scalar || (accessor.component_type != 5121 && accessor.component_type != 5123 &&
-                             accessor.component_type != 5125)) {
+    if (accessor.components != 1 || (accessor.component_type != 5121 && accessor.component_type != 5123 &&
+                                     accessor.component_type != 5125)) {
       broken(where.where(), "indices must be unsigned scalars");
     }
     if (!accessor.view) return;

@@ -174,8 +174,8 @@ class Loader {
     if (!(material.metallic >= 0 && material.metallic <= 1)) fail("metallic must be from 0 to 1");
     const bool has_lobe = material.metallic > 0 || material.specular != Vec3{};
     // A Phong exponent of 65535 is alpha = sqrt(2 / 65537).
-    const double minimum = material.ndf == interop::NDF_PHONG ? std::sqrt(2 / 65537.0) * (1 - 1e-6)
-                                                              : static_cast<double>(interop::ALPHA_MIN);
+    const double minimum =
+        material.ndf == interop::NDF_PHONG ? std::sqrt(2 / 65537.0) * (1 - 1e-6) : min_alpha;
     if (has_lobe && !(material.alpha >= minimum && material.alpha <= 1)) {
       fail("its lobe's alpha of " + std::to_string(material.alpha) + " must be from " +
            (material.ndf == interop::NDF_PHONG ? "0.005524 (Phong exponent 65535)" : "0.001") + " to 1");

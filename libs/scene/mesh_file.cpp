@@ -242,10 +242,13 @@ class NodeReader {
   MeshFile& out_;
 };
 
-const aiScene& read_scene(Assimp::Importer& importer, const fs::path& path) {
+const aiScene& read_scene(Assimp::Importer& importer, const fs::path& path, MeshFormat format) {
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
-  const aiScene* scene = importer.ReadFile(
-      path.string(), aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType);
+  unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType;
+  // Catches bad indices before they are used. Of glTF it would refuse sound files, for lights that it reads
+  // wrongly; there read_gltf() has looked already.
+  if (format != MeshFormat::gltf) steps |= aiProcess_ValidateDataStructure;
+  const aiScene* scene = importer.ReadFile(path.string(), steps);
   if (!scene) throw Error(ErrorCode::mesh_unreadable, path.string() + ": " + importer.GetErrorString());
   if (!scene->mRootNode) throw Error(ErrorCode::mesh_invalid, path.string() + ": the file is empty");
   return *scene;
@@ -256,7 +259,9 @@ void import_materials(const aiScene& scene, const fs::path& path, MeshFormat for
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
     Material material =
         import_material(scene, *scene.mMaterials[i], format, path.parent_path(), textures, out.warnings);
-    if (i < document.specular.size() && document.specular[i]) material.specular = *document.specular[i];
+    if (const auto found = document.specular.find(material.name); found != document.specular.end()) {
+      material.specular = found->second;
+    }
     out.materials.push_back(std::move(material));
   }
 }
@@ -292,7 +297,7 @@ MeshFile load_mesh_file(const fs::path& path, bool all_tangents, TexturePool& te
   }
   const GltfDocument document = format == MeshFormat::gltf ? read_gltf(path) : GltfDocument{};
   Assimp::Importer importer;
-  const aiScene& scene = read_scene(importer, path);
+  const aiScene& scene = read_scene(importer, path, format);
   complete_meshes(importer, format, all_tangents, path.string());
 
   MeshFile out;

@@ -112,7 +112,7 @@ std::optional<TextureOverride> read_texture_override(const JsonValue& object, co
 }
 
 double read_alpha(const JsonValue& value, double alpha) {
-  if (!(alpha >= static_cast<double>(interop::ALPHA_MIN) && alpha <= 1)) {
+  if (!(alpha >= min_alpha && alpha <= 1)) {
     bad_material(value,
                  "the lobe's alpha would be " + std::to_string(alpha) + "; it must be from 0.001 to 1");
   }

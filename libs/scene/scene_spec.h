@@ -9,6 +9,8 @@
 
 namespace vsgl::scene {
 
+inline constexpr double min_alpha = 1e-3;  // interop::ALPHA_MIN, not rounded to single precision
+
 // What a scene JSON says, before any mesh is read; everything in world coordinates.
 
 // A texture that an override sets; no path: takes the material's texture away.

@@ -57,9 +57,13 @@ Texture read_texture(const std::filesystem::path& path, bool srgb) {
 Texture read_texture(std::span<const unsigned char> bytes, const std::string& format, const std::string& name,
                      bool srgb) {
   OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(bytes.data()), bytes.size());  // only read
-  const OIIO::ImageSpec config = unassociated_alpha();
-  const auto input = OIIO::ImageInput::open("embedded." + format, &config, &memory);
-  if (!input) unreadable(name, "not a readable image: " + OIIO::geterror());
+  // Not ImageInput::open(), which in OpenImageIO 2.4 forgets the memory when it is given a configuration.
+  const auto input = OIIO::ImageInput::create(format);
+  if (!input) unreadable(name, "images of the format \"" + format + "\" are not supported");
+  OIIO::ImageSpec spec;
+  if (!input->set_ioproxy(&memory) || !input->open("embedded." + format, spec, unassociated_alpha())) {
+    unreadable(name, "not a readable image: " + input->geterror());
+  }
   return convert(*input, name, srgb);
 }
 

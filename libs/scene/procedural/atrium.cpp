@@ -23,7 +23,7 @@ constexpr double outer_x = half_x + gallery, outer_z = half_z + gallery;
 // How finely everything is cut up.
 struct Detail {
   int around = 8;  // segments of a column's circumference and of an arch
-  int along = 6;   // rings of a column
+  int along = 11;  // rings of a column, a multiple of the 11 parts of its profile
   int tiles = 1;   // cells of floor and walls per bay
 };
 
@@ -41,21 +41,13 @@ constexpr std::array<std::array<double, 2>, 12> profile{{{0.15, 0.24},
                                                          {2.64, 0.20},
                                                          {2.75, 0.245}}};
 
-// Catmull-Rom through the profile: (height, radius) at t in [0, 1].
+// (height, radius) at t in [0, 1]: from ring to ring of the profile, rounded.
 std::array<double, 2> outline(double t) {
   constexpr int last = static_cast<int>(profile.size()) - 1;
-  const double x = t * last;
-  const int i = std::min(static_cast<int>(x), last - 1);
-  const double f = x - i;
-  std::array<double, 2> out{};
-  for (int c = 0; c < 2; ++c) {
-    const double before = profile[std::max(i - 1, 0)][c], a = profile[i][c], b = profile[i + 1][c],
-                 after = profile[std::min(i + 2, last)][c];
-    out[c] =
-        a + 0.5 * f *
-                (b - before + f * (2 * before - 5 * a + 4 * b - after + f * (3 * (a - b) + after - before)));
-  }
-  return out;
+  const int i = std::min(static_cast<int>(t * last), last - 1);
+  const double f = t * last - i;
+  return {std::lerp(profile[i][0], profile[i + 1][0], f),
+          std::lerp(profile[i][1], profile[i + 1][1], f * f * (3 - 2 * f))};
 }
 
 ModelMesh column(int material, const Detail& detail) {
@@ -63,7 +55,7 @@ ModelMesh column(int material, const Detail& detail) {
   shape.box({-0.25, 0, -0.25}, {0.25, 0.15, 0.25}, "xXYzZ");
   shape.box({-0.25, 2.75, -0.25}, {0.25, spring, 0.25}, "xXyzZ");
   shape.surface(detail.around, detail.along, [](double s, double t) {
-    const double angle = -2 * std::numbers::pi * s;  // so that s x t points outwards
+    const double angle = -2 * std::numbers::pi * s;  // so that ds x dt points outwards
     const auto [height, radius] = outline(t);
     constexpr double step = 1e-4;
     const auto low = outline(std::max(t - step, 0.0)), high = outline(std::min(t + step, 1.0));
@@ -105,7 +97,7 @@ ModelMesh arch(int material, const Detail& detail) {
   }
   shape.surface(detail.around, 1, [&](double s, double t) {  // the underside of the arch
     const Vec3 position = rim(s);
-    return Shapes::Point{position + Vec3{0, 0, depth * (2 * t - 1)},
+    return Shapes::Point{position + Vec3{0, 0, depth * (1 - 2 * t)},
                          Vec3{0, spring, 0} - Vec3{position.x, position.y, 0}};
   });
   shape.quad({-bay / 2, top, depth}, {bay / 2, top, depth}, {bay / 2, top, -depth}, {-bay / 2, top, -depth});
@@ -169,7 +161,7 @@ struct Materials {
 
 Materials add_materials(Model& model, const GenerateOptions& options) {
   const auto [alpha, ndf] = chosen_lobe(options, 0.2);
-  ModelMaterial floor{"floor", {1, 1, 1}, {0.15, 0.15, 0.15}, false, alpha, ndf};
+  ModelMaterial floor{"floor", {0.85, 0.85, 0.85}, {0.15, 0.15, 0.15}, false, alpha, ndf};
   ModelMaterial wall{"wall", {1, 1, 1}, {}, false, 1, "ggx"};
   if (options.texture_dir.empty()) {
     const TilePattern tiles{4, 4, false, {0.45, 0.4, 0.33}, 0.3, 0.04, 0.6, options.seed};
@@ -201,7 +193,7 @@ std::size_t count(const Detail& detail) {
 // and walls with the rest.
 Detail fit(std::size_t budget) {
   Detail detail;
-  const auto refined = [](int step) { return Detail{8 + 2 * step, 6 + 2 * step, 1}; };
+  const auto refined = [](int step) { return Detail{8 + 4 * step, 11 * (1 + step / 2), 1}; };
   int step = 0;
   while (count(refined(step + 1)) * 4 <= budget * 3) ++step;
   detail = refined(step);
@@ -224,7 +216,7 @@ Model make_atrium(const GenerateOptions& options) {
   Model model;
   const Materials materials = add_materials(model, options);
   add_geometry(model, materials, fit(static_cast<std::size_t>(options.triangles)));
-  model.camera = {{-outer_x + 0.7, 1.7, outer_z - 0.8}, {1.2, 1.7, -1.6}, 58};
+  model.camera = {{-outer_x + 0.9, 1.7, 1.9}, {2, 1.75, -2.2}, 62};
   // Like the sun: over the roof of one side into the court, onto its floor and the arcade opposite.
   model.light = {{-7, 14, 5}, {1.2, 0, -1.0}, 19};
   model.light_inner_deg = 17;

@@ -48,7 +48,7 @@ Model make_caustic_ring(const GenerateOptions& options) {
   ground.quad({-2.5, 0, 2.5}, {2.5, 0, 2.5}, {2.5, 0, -2.5}, {-2.5, 0, -2.5});
   model.add(ground.take());
   model.add(half_ring(metal));
-  model.camera = {{2.2, 2.6, 0.9}, {-0.25, 0.05, 0}, 36};
+  model.camera = {{1.6, 3.0, 1.3}, {-0.2, 0.1, 0}, 38};
   // Low enough for the ring's inside to throw its light on the floor within half a radius, where the cusp is.
   model.light = {{4.0, 2.3, 0}, {-0.7, 0.2, 0}, 17};
   model.light_inner_deg = 15;

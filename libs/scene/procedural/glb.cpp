@@ -51,29 +51,35 @@ class GlbWriter {
   explicit GlbWriter(const Model& model) : model_(model) {}
 
   std::string write(Vec3 offset, double scale) {
-    json_["asset"] = {{"version", "2.0"}, {"generator", "vsgltools scene-gen"}};
-    json_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_specular"};
-    json_["scene"] = 0;
-    json_["scenes"] = {{{"nodes", {0}}}};
-    add_nodes(offset, scale);
-    json_["cameras"] = {
-        {{"name", "camera"},
-         {"type", "perspective"},
-         {"perspective", {{"yfov", model_.camera.fov_deg * degree}, {"znear", 0.01 * scale}}}}};
-    add_light(scale);
-    for (const ModelMaterial& material : model_.materials)
-      json_["materials"].push_back(material_json(material));
-    for (const ModelMesh& mesh : model_.meshes) json_["meshes"].push_back(mesh_json(mesh));
-    json_["buffers"] = {{{"byteLength", binary_.size()}}};
-    return container();
+    Json materials = Json::array(), meshes = Json::array();
+    for (const ModelMaterial& material : model_.materials) materials.push_back(material_json(material));
+    for (const ModelMesh& mesh : model_.meshes) meshes.push_back(mesh_json(mesh));
+    Json out;
+    out["asset"] = {{"version", "2.0"}, {"generator", "vsgltools scene-gen"}};
+    out["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_specular"};
+    out["extensions"] = {{"KHR_lights_punctual", {{"lights", Json::array({light_json(scale)})}}}};
+    out["scene"] = 0;
+    out["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
+    out["nodes"] = nodes_json(offset, scale);
+    out["cameras"] = Json::array({camera_json(scale)});
+    out["materials"] = materials;
+    out["meshes"] = meshes;
+    if (!images_.empty()) {
+      out["images"] = images_;
+      out["textures"] = textures_;
+    }
+    out["accessors"] = accessors_;
+    out["bufferViews"] = views_;
+    out["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+    return container(out.dump());
   }
 
  private:
-  void add_nodes(Vec3 offset, double scale) {
+  Json nodes_json(Vec3 offset, double scale) const {
     Json root{{"name", "root"}, {"children", Json::array()}};
     if (offset != Vec3{}) root["translation"] = array_of(offset);
     if (scale != 1) root["scale"] = array_of({scale, scale, scale});
-    Json& nodes = json_["nodes"] = Json::array({root});
+    Json nodes = Json::array({root});
     for (const ModelNode& node : model_.nodes) {
       Json entry{{"name", node.name}, {"mesh", node.mesh}};
       if (matrix_of(node.transform) != matrix_of({})) entry["matrix"] = matrix_of(node.transform);
@@ -84,26 +90,32 @@ class GlbWriter {
                      {"matrix", view_matrix(model_.light)},
                      {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     for (std::size_t i = 1; i < nodes.size(); ++i) nodes[0]["children"].push_back(i);
+    return nodes;
   }
 
-  void add_light(double scale) {
-    const Json light{{"name", "light"},
-                     {"type", "spot"},
-                     {"color", {1, 1, 1}},
-                     {"intensity", model_.light_intensity_w_sr * scale * scale * lumens_per_watt},
-                     {"spot",
-                      {{"innerConeAngle", model_.light_inner_deg * degree},
-                       {"outerConeAngle", model_.light.fov_deg * degree}}}};
-    json_["extensions"] = {{"KHR_lights_punctual", {{"lights", Json::array({light})}}}};
+  Json camera_json(double scale) const {
+    return {{"name", "camera"},
+            {"type", "perspective"},
+            {"perspective", {{"yfov", model_.camera.fov_deg * degree}, {"znear", 0.01 * scale}}}};
   }
 
-  int texture(const std::string& image) {
-    Json& images = json_["images"];
-    for (std::size_t i = 0; i < images.size(); ++i)
-      if (images[i]["uri"] == image) return static_cast<int>(i);
-    images.push_back({{"uri", image}});
-    json_["textures"].push_back({{"source", images.size() - 1}});
-    return static_cast<int>(images.size()) - 1;
+  Json light_json(double scale) const {
+    return {{"name", "light"},
+            {"type", "spot"},
+            {"color", {1, 1, 1}},
+            {"intensity", model_.light_intensity_w_sr * scale * scale * lumens_per_watt},
+            {"spot",
+             {{"innerConeAngle", model_.light_inner_deg * degree},
+              {"outerConeAngle", model_.light.fov_deg * degree}}}};
+  }
+
+  // The index of the texture that shows an image.
+  std::size_t texture(const std::string& image) {
+    for (std::size_t i = 0; i < images_.size(); ++i)
+      if (images_[i]["uri"] == image) return i;
+    textures_.push_back({{"source", images_.size()}});
+    images_.push_back({{"uri", image}});
+    return images_.size() - 1;
   }
 
   Json material_json(const ModelMaterial& material) {
@@ -131,16 +143,16 @@ class GlbWriter {
   std::size_t accessor(const std::vector<T>& values, int component_type, const char* type, int target,
                        const Json& extra = Json::object()) {
     const std::size_t count = values.size(), length = count * sizeof(T);
-    json_["bufferViews"].push_back(
+    views_.push_back(
         {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", length}, {"target", target}});
     binary_.append(reinterpret_cast<const char*>(values.data()), length);
-    Json entry{{"bufferView", json_["bufferViews"].size() - 1},
+    Json entry{{"bufferView", views_.size() - 1},
                {"componentType", component_type},
                {"count", count},
                {"type", type}};
     entry.update(extra);
-    json_["accessors"].push_back(entry);
-    return json_["accessors"].size() - 1;
+    accessors_.push_back(entry);
+    return accessors_.size() - 1;
   }
 
   Json mesh_json(const ModelMesh& mesh) {
@@ -162,8 +174,7 @@ class GlbWriter {
         {"primitives", {{{"attributes", attributes}, {"indices", indices}, {"material", mesh.material}}}}};
   }
 
-  std::string container() {
-    std::string text = json_.dump();
+  std::string container(std::string text) {
     pad(text, ' ');
     pad(binary_, '\0');
     std::string out = "glTF";
@@ -177,7 +188,7 @@ class GlbWriter {
   }
 
   const Model& model_;
-  Json json_;
+  Json images_ = Json::array(), textures_ = Json::array(), accessors_ = Json::array(), views_ = Json::array();
   std::string binary_;
 };
 

@@ -29,10 +29,10 @@ Model make_thin_walls(const GenerateOptions&) {
   Shapes sheet("sheet", white);
   sheet.quad({0, 0, high.z}, {0, 0, low.z + 1}, {0, high.y, low.z + 1}, {0, high.y, high.z});
   Shapes slab("slab", white);
-  slab.box({1.6, 0, low.z}, {1.61, high.y, high.z - 1.2}, "xXZ");
+  slab.box({1.6, 0, low.z}, {1.61, high.y, -0.4}, "xXZ");
   for (Shapes* shape : {&room, &left, &right, &sheet, &slab}) model.add(shape->take());
 
-  model.camera = {{2.7, 1.7, 1.8}, {-0.6, 1.2, -1.2}, 60};
+  model.camera = {{2.8, 1.6, 1.75}, {-0.6, 1.2, -1.2}, 58};
   model.light = {{-1.2, 2.8, 0.8}, {-1.5, 0, -1.2}, 40};
   model.light_inner_deg = 30;
   model.light_intensity_w_sr = 30;

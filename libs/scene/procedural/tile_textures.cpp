@@ -56,8 +56,6 @@ Place place(const TilePattern& pattern, double u, double v) {
 
 // 0 in the joint, 1 on the tile, with a rounded bevel between.
 double height(const TilePattern& pattern, double u, double v) {
-  u -= std::floor(u);
-  v -= std::floor(v);
   const double edge = place(pattern, u, v).edge / pattern.joint;
   const double roughness =
       0.12 * noise(pattern.seed + 1, u, v, 32) + 0.06 * noise(pattern.seed + 2, u, v, 96);
@@ -111,12 +109,16 @@ std::string tile_colour_png(const TilePattern& pattern) {
 }
 
 std::string tile_normal_png(const TilePattern& pattern) {
+  std::vector<double> heights(std::size_t{side} * side);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      heights[y * side + x] = height(pattern, (x + 0.5) / side, (y + 0.5) / side);
+  const auto at = [&](int x, int y) { return heights[(y + side) % side * side + (x + side) % side]; };
+  const double scale = 5 * pattern.relief;
   return paint([&](double u, double v) {
-    const double step = 1.0 / side, scale = 5 * pattern.relief;
-    const double du = height(pattern, u + step, v) - height(pattern, u - step, v);
-    const double dv = height(pattern, u, v + step) - height(pattern, u, v - step);  // rows count downwards
-    const Vec3 normal = normalise({-scale * du, scale * dv, 1});
-    return (normal + Vec3{1, 1, 1}) * 0.5;
+    const int x = static_cast<int>(u * side), y = static_cast<int>(v * side);
+    const double du = at(x + 1, y) - at(x - 1, y), dv = at(x, y + 1) - at(x, y - 1);  // rows count downwards
+    return (normalise({-scale * du, scale * dv, 1}) + Vec3{1, 1, 1}) * 0.5;
   });
 }
 
