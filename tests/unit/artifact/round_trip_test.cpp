@@ -84,7 +84,7 @@ TEST(RoundTrip, PdfOfASceneThatEmitsNothing) {
 
 TEST(RoundTrip, Lights) {
   const TemporaryFolder folder;
-  for (int count : {0, 1, 37})
+  for (int count : {0, 1, 37, 700})
     for (bool specular : {false, true}) {
       const Lights a = sample_lights(count, specular);
       write(folder / "l.exr", a, sample_provenance());
