@@ -51,7 +51,7 @@ const VisibilityMethod& find_method(const std::string& name) {
   if (found != methods.end()) return *found;
   std::string names;
   for (const auto& m : methods) names += (names.empty() ? "" : ", ") + m.name;
-  throw Error(ErrorCode::bad_value, "method: \"" + name + "\" is not one of " + names);
+  throw Error(ErrorCode::bad_value, "method: \"" + name + "\" is none of " + names);
 }
 
 }  // namespace

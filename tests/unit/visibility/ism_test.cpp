@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include "../synthetic_scene.h"
 #include "base/error.h"
 #include "math/frame.h"
 #include "math/octahedral.h"
 #include "stages/visibility/shadow_lookup.h"
 #include "stages/visibility/visibility.h"
-#include "test_scene.h"
 
 namespace vsgl {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cstring>
 
+#include "../synthetic_scene.h"
 #include "base/error.h"
-#include "test_scene.h"
 
 namespace vsgl::visibility {
 namespace {

@@ -17,7 +17,6 @@ namespace vsgl::test {
 inline interop::vec3 narrow(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
-
 inline Vec3 widen(interop::vec3 v) {
   return {v.x, v.y, v.z};
 }
@@ -62,6 +61,20 @@ inline void add_disk(scene::Scene& scene, Vec3 centre, double radius, int segmen
     return centre + radius * Vec3{std::cos(angle), std::sin(angle), 0};
   };
   for (int i = 0; i < segments; ++i) add_triangle(scene, centre, rim(i), rim(i + 1));
+}
+
+// By latitude and longitude, inscribed.
+inline void add_sphere(scene::Scene& scene, Vec3 centre, double radius, int segments = 48) {
+  const auto at = [&](int i, int j) {
+    const double theta = std::numbers::pi * i / (segments / 2), phi = 2 * std::numbers::pi * j / segments;
+    return centre +
+           radius * Vec3{std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
+  };
+  for (int i = 0; i < segments / 2; ++i)
+    for (int j = 0; j < segments; ++j) {
+      add_triangle(scene, at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      add_triangle(scene, at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
 }
 
 // A flat cluster of unit power.

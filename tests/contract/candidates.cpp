@@ -1,0 +1,198 @@
+#include "candidates.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "../unit/synthetic_room.h"
+#include "../unit/synthetic_scene.h"
+#include "stages/lights/lights.h"
+#include "stages/pdf/pdf.h"
+#include "stages/shading/shading.h"
+#include "stages/visibility/shadow_lookup.h"
+#include "stages/visibility/visibility.h"
+
+namespace vsgl::test {
+namespace {
+
+const Rsm& rsm() {
+  static const Rsm room = room_rsm(64, 2);
+  return room;
+}
+
+const GBuffer& gbuffer() {
+  static const GBuffer room = room_gbuffer(32, 24);
+  return room;
+}
+
+// The room of `rsm()` as triangles.
+const scene::Scene& room_scene() {
+  static const scene::Scene room = [] {
+    scene::Scene scene;
+    scene.radius = rsm().scene_radius;
+    add_box(scene, {-2, 0, -2}, {2, 3, 2});
+    add_sphere(scene, {0.5, 0.5, -0.3}, 0.5);
+    return scene;
+  }();
+  return room;
+}
+
+double luminance_of(interop::vec3 colour) {
+  return luminance(to_double(colour));
+}
+
+double emitted_power(const Lights& lights) {
+  double sum = 0;
+  for (const auto& light : lights.lights)
+    sum += luminance_of(light.power_diffuse) + luminance_of(light.power_specular);
+  return sum;
+}
+
+// ---- pdf
+
+Pdf build_density(gpu::Device& device, const std::string& method) {
+  Report report;
+  return build_pdf(rsm(), &gbuffer(), {.method = method, .gbuffer_lights = 128, .view_samples = 32}, device,
+                   report);
+}
+
+// Mean 1 over all layers, and positive wherever light is reflected: or else sampling would be biased.
+void check_pdf(gpu::Device&, const std::filesystem::path& path) {
+  const Pdf pdf = read_pdf(path);
+  ASSERT_EQ(pdf.layers.size(), rsm().layers.size());
+  double mean = 0;
+  for (std::size_t layer = 0; layer < pdf.layers.size(); ++layer) {
+    const auto& density = pdf.layers[layer].pyramid;
+    mean += static_cast<double>(density.back()) / static_cast<double>(pdf.layers.size());
+    for (int texel = 0; texel < rsm().size * rsm().size; ++texel)
+      EXPECT_TRUE(density[texel] > 0 || rsm().layers[layer].pyramid[texel].weight == 0) << texel;
+  }
+  EXPECT_NEAR(mean, 1, 1e-4);
+}
+
+// ---- lights
+
+Lights sample_lights(gpu::Device& device, const std::string& method) {
+  Report report;
+  return generate_lights(rsm(), flux_pdf(rsm()), {.method = method, .count = 128}, device, report);
+}
+
+void check_lights(gpu::Device&, const std::filesystem::path& path) {
+  const Lights lights = read_lights(path);
+  EXPECT_GT(lights.lights.size(), 100u);
+  EXPECT_NEAR(emitted_power(lights) / reflected_power(rsm()), 1, 0.1);
+}
+
+// ---- visibility
+
+ShadowMaps make_maps(gpu::Device& device, const Lights& lights, const std::string& method) {
+  Report report;
+  return build_shadow_maps(room_scene(), lights, {.method = method, .points_per_light = 4096, .tile = 32},
+                           device, report);
+}
+
+// Against rays to every third pixel, weighted by the cosines at both ends.
+void check_maps(gpu::Device& device, const std::filesystem::path& path) {
+  const ShadowMaps maps = read_shadow_maps(path);
+  const Lights lights = sample_lights(device, "vpl");
+  ASSERT_EQ(maps.views.size(), lights.lights.size());
+  double error = 0, weight = 0, hidden = 0;
+  for (std::size_t light = 0; light < lights.lights.size(); ++light)
+    for (std::size_t pixel = 0; pixel < gbuffer().pixels.size(); pixel += 3) {
+      const auto& receiver = gbuffer().pixels[pixel];
+      const Vec3 from = to_double(lights.lights[light].origin), to = to_double(receiver.position);
+      const Vec3 u = normalise(to - from), normal = to_double(receiver.normal);
+      const double w =
+          std::max(dot(u, to_double(lights.lights[light].normal)), 0.0) * std::max(-dot(u, normal), 0.0);
+      const bool visible =
+          static_cast<double>(see(from + 1e-4 * u, u, false).depth) > 0.99 * length(to - from);
+      error += w * std::abs(shadow_visibility(maps, light, to, normal) - (visible ? 1 : 0));
+      hidden += visible ? 0 : w;
+      weight += w;
+    }
+  EXPECT_GT(hidden / weight, 0.01);
+  EXPECT_LT(error / weight, 0.1);
+}
+
+// ---- shading
+
+std::vector<double> pixel_luminances(const Indirect& image) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < image.diffuse.size(); ++i)
+    out.push_back(luminance_of(image.diffuse[i]) +
+                  (image.specular.empty() ? 0 : luminance_of(image.specular[i])));
+  return out;
+}
+
+Indirect make_image(gpu::Device& device, const Lights& lights, const ShadowMaps* maps,
+                    const std::string& method) {
+  Report report;
+  return shade(gbuffer(), lights, maps, {.method = method}, device, report);
+}
+
+// The power spread evenly over the room's surface and reflected by the mean albedo gives a mean radiance that
+// the image must be near.
+double expected_radiance() {
+  double albedo = 0;
+  for (const auto& pixel : gbuffer().pixels)
+    albedo += luminance_of(pixel.diffuse) + luminance_of(pixel.specular);
+  albedo /= static_cast<double>(gbuffer().pixels.size());
+  const double area = 2 * 16 + 4 * 12;
+  return reflected_power(rsm()) / area * albedo / std::numbers::pi;
+}
+
+void check_image(gpu::Device&, const std::filesystem::path& path) {
+  const auto image = pixel_luminances(read_indirect(path));
+  ASSERT_EQ(image.size(), gbuffer().pixels.size());
+  double mean = 0;
+  for (const double pixel : image) mean += pixel / static_cast<double>(image.size());
+  EXPECT_GT(mean, expected_radiance() / 3);
+  EXPECT_LT(mean, expected_radiance() * 3);
+}
+
+template <class Methods, class Make, class Check>
+void append(std::vector<Candidate>& list, const std::string& stage, const std::string& tool,
+            const Methods& methods, Make make, Check check) {
+  for (const auto& method : methods)
+    list.push_back({stage, method.name, tool,
+                    [=, name = method.name](gpu::Device& device, const std::filesystem::path& path) {
+                      write(path, make(device, name), Provenance{});
+                    },
+                    check});
+}
+
+Indirect make_shadowed_image(gpu::Device& device, const std::string& method) {
+  const Lights lights = sample_lights(device, "fis-2016");
+  const ShadowMaps maps = make_maps(device, lights, "ism");
+  return make_image(device, lights, &maps, method);
+}
+
+ShadowMaps make_vpl_maps(gpu::Device& device, const std::string& method) {
+  return make_maps(device, sample_lights(device, "vpl"), method);
+}
+
+}  // namespace
+
+const std::vector<Candidate>& candidates() {
+  static const std::vector<Candidate> list = [] {
+    std::vector<Candidate> out;
+    append(out, "pdf", "pdf-build", pdf_methods(), build_density, check_pdf);
+    append(out, "lights", "vsgl-gen", lights_methods(), sample_lights, check_lights);
+    append(out, "visibility", "ismap", visibility_methods(), make_vpl_maps, check_maps);
+    append(out, "shading", "shade", shading_methods(), make_shadowed_image, check_image);
+    return out;
+  }();
+  return list;
+}
+
+const std::vector<Stage>& stages() {
+  static const std::vector<Stage> list = {
+      {"lights", [](gpu::Device& device, const std::string& method) { sample_lights(device, method); }},
+      {"visibility", [](gpu::Device& device, const std::string& method) { make_vpl_maps(device, method); }},
+      {"shading",
+       [](gpu::Device& device, const std::string& method) { make_shadowed_image(device, method); }},
+  };
+  return list;
+}
+
+}  // namespace vsgl::test
