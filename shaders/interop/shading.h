@@ -78,10 +78,10 @@ VSGL_CONST uint SHADING_SHADOWS_ID = 2u;   // 1: look up shadow maps
 VSGL_CONST uint SHADING_CANCEL_ID = 3u;    // 1: consistent bias reduction
 VSGL_CONST uint SHADING_BUMPED_ID = 4u;    // 1: shading normals differ from geometric ones
 VSGL_CONST uint SHADING_ASG_ID = 5u;       // 1: anisotropic SG for the specular lobe, as the papers print it
+VSGL_CONST uint SHADING_PIXELS_ID = 6u;    // pixels per invocation
 VSGL_CONST uint NDF_ANY = 4u;
 
-// Pixels per invocation and invocations per group.
-VSGL_CONST uint SHADING_PIXELS = 8u;
+// Invocations per group.
 VSGL_CONST uint SHADING_GROUP = 64u;
 
 VSGL_INTEROP_END

@@ -11,6 +11,7 @@ layout(constant_id = SHADING_EMISSION_ID) const uint EMISSION = NDF_NONE;
 layout(constant_id = SHADING_SHADOWS_ID) const uint SHADOWS = 0;
 layout(constant_id = SHADING_CANCEL_ID) const uint CANCEL = 0;
 layout(constant_id = SHADING_ASG_ID) const uint ASG = 0;
+layout(constant_id = SHADING_PIXELS_ID) const uint PIXELS = 8;
 
 layout(scalar, binding = 0) readonly buffer Receivers { Surface surfaces[]; };
 layout(scalar, binding = 1) uniform LightBlock { ShadingLight lights[SHADING_BLOCK_LIGHTS]; };

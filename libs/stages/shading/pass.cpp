@@ -38,6 +38,12 @@ std::vector<LightList> sort_lights(const std::vector<ShadingLight>& lights, bool
   return out;
 }
 
+// The more, the fewer loads of lights, but the longer the compilation of the unrolled loop.
+std::uint32_t pixels_per_invocation(std::uint32_t receiver, std::uint32_t emission) {
+  if (receiver == interop::NDF_ANY) return 1;
+  return receiver == interop::NDF_NONE && emission == interop::NDF_NONE ? 8 : 4;
+}
+
 void report_classes(const GBuffer& gbuffer, const std::vector<ReceiverList>& receivers, const std::vector<LightList>& lights,
                     const ShadowMaps* maps, const ShadingKernel& kernel, Report& report) {
   std::size_t seen = 0;
@@ -83,11 +89,12 @@ class Pass {
     gpu::Buffer results(device_, receivers.surfaces.size() * sizeof(ShadingSums));
     results.clear();
     for (const LightList& list : lights) {
-      const gpu::ComputePipeline pipeline = build(receivers, list);
+      const std::uint32_t pixels = pixels_per_invocation(receivers.ndf, list.ndf);
+      const gpu::ComputePipeline pipeline = build(receivers, list, pixels);
       for (std::size_t first = 0; first < list.lights.size(); first += block_lights()) {
         const std::size_t count = std::min(block_lights(), list.lights.size() - first);
         gpu::Buffer block = upload_block(std::span(list.lights).subspan(first, count));
-        dispatch(pipeline, surfaces, block, results, receivers.surfaces.size(), count, report);
+        dispatch(pipeline, surfaces, block, results, receivers.surfaces.size(), count, pixels, report);
       }
     }
     return results.download<ShadingSums>(receivers.surfaces.size());
@@ -114,7 +121,7 @@ class Pass {
     return gpu::Buffer::from(device_, padded);
   }
 
-  gpu::ComputePipeline build(const ReceiverList& receivers, const LightList& lights) const {
+  gpu::ComputePipeline build(const ReceiverList& receivers, const LightList& lights, std::uint32_t pixels) const {
     using gpu::Binding;
     return gpu::ComputePipeline(
         device_, kernel_.spirv,
@@ -124,16 +131,17 @@ class Pass {
          {interop::SHADING_SHADOWS_ID, shadows_},
          {interop::SHADING_CANCEL_ID, kernel_.threshold > 0},
          {interop::SHADING_BUMPED_ID, receivers.bumped},
-         {interop::SHADING_ASG_ID, kernel_.asg}});
+         {interop::SHADING_ASG_ID, kernel_.asg},
+         {interop::SHADING_PIXELS_ID, pixels}});
   }
 
   void dispatch(const gpu::ComputePipeline& pipeline, gpu::Buffer& surfaces, gpu::Buffer& block, gpu::Buffer& results,
-                std::size_t receivers, std::size_t lights, Report& report) {
+                std::size_t receivers, std::size_t lights, std::uint32_t pixels, Report& report) {
     push_.receivers = static_cast<std::uint32_t>(receivers);
     push_.lights = static_cast<std::uint32_t>(lights);
     gpu::Commands commands(device_);
     commands.dispatch(kPhase, pipeline, {surfaces, block, results, atlas_, views_}, push_,
-                      {gpu::groups_for(receivers, interop::SHADING_GROUP * interop::SHADING_PIXELS), 1, 1});
+                      {gpu::groups_for(receivers, interop::SHADING_GROUP * pixels), 1, 1});
     commands.submit(report);
   }
 
