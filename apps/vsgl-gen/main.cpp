@@ -42,6 +42,10 @@ void declare(vsgl::Tool& tool, Arguments& a) {
   app.add_option("--kernel-solver", a.params.kernel_solver,
                  "fis-2016: newton, exact; bisection, 12 steps as the paper prints it")
       ->check(CLI::IsMember({"newton", "bisection"}));
+  app.add_option(
+         "--power", a.params.power,
+         "fis-2016: conserved, powers add up to the RSM's; paper, as printed, without the common factor")
+      ->check(CLI::IsMember({"conserved", "paper"}));
   app.add_option("--points", a.params.points,
                  "sample points: lattice of a searched generator, fibonacci, or random")
       ->check(CLI::IsMember(vsgl::point_set_names()));

@@ -93,6 +93,7 @@ ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& 
                       {"points", params.points},
                       {"kernel_scale", params.kernel_scale},
                       {"kernel_solver", params.kernel_solver},
+                      {"power_rule", params.power},
                       {"seed", params.seed},
                       {"anchor_m", to_array(lights.anchor)},
                       {"scene_radius_m", lights.scene_radius},

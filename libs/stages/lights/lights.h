@@ -19,6 +19,7 @@ struct LightsParams {
   int count = 1024;                 // samples, 1..1048576
   double kernel_scale = 1;  // K > 0: kernels hold K / count of the samples; power is not affected in fis-2016
   std::string kernel_solver = "newton";  // fis-2016: newton (exact) | bisection (12 steps, as printed)
+  std::string power = "conserved";       // fis-2016: conserved (adds up to the RSM's) | paper (as printed)
   std::string points = "lattice";        // lattice | fibonacci | random
   std::uint64_t seed = 0;
 };

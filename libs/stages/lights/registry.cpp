@@ -18,6 +18,8 @@ void check_params(const LightsParams& params) {
   if (params.kernel_solver != "newton" && params.kernel_solver != "bisection")
     throw Error(ErrorCode::bad_value,
                 "kernel_solver: \"" + params.kernel_solver + "\" is none of newton, bisection");
+  if (params.power != "conserved" && params.power != "paper")
+    throw Error(ErrorCode::bad_value, "power: \"" + params.power + "\" is none of conserved, paper");
   point_set_kind(params.points);
 }
 

@@ -77,6 +77,8 @@ void expect_total_power(const Rsm& rsm, const Pdf& pdf) {
       LightsParams params;
       params.kernel_solver = solver;
       params.kernel_scale = scale;
+      EXPECT_NEAR(power_ratio(rsm, pdf, params), 1, 1e-5) << solver << " " << scale;
+      params.power = "paper";
       EXPECT_NEAR(power_ratio(rsm, pdf, params), 1, 0.005) << solver << " " << scale;
     }
 }
@@ -249,6 +251,7 @@ TEST(Lights, RejectsWhatDoesNotBelongTogether) {
   expect_error(ErrorCode::bad_value, {"points"}, attempt([](auto& p, auto&) { p.points = "sobol"; }));
   expect_error(ErrorCode::bad_value, {"kernel_solver"},
                attempt([](auto& p, auto&) { p.kernel_solver = "x"; }));
+  expect_error(ErrorCode::bad_value, {"power"}, attempt([](auto& p, auto&) { p.power = "x"; }));
   expect_error(ErrorCode::out_of_range, {"count"}, attempt([](auto& p, auto&) { p.count = 0; }));
   expect_error(ErrorCode::out_of_range, {"kernel_scale"},
                attempt([](auto& p, auto&) { p.kernel_scale = 0; }));
