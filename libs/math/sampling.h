@@ -37,7 +37,7 @@ std::vector<float> mean_pyramid(std::span<const float> level0, int size);
 std::vector<std::string> point_set_names();
 std::uint32_t point_set_kind(const std::string& name);
 
-// [Keller 1997 uses Halton's points] a set of `count` points, 1..MAX_POINTS, of that kind (POINTS_*). The
+// A set of `count` points, 1..MAX_POINTS, of that kind (POINTS_*). The
 // seed shapes random points and the rotation of the others. Lattices of fewer than 8 points are Fibonacci's:
 // there is nothing to search.
 interop::PointSet make_point_set(std::uint32_t kind, std::uint32_t count, std::uint64_t seed);

@@ -35,7 +35,7 @@ std::vector<int> count_samples(const TestDensity& density, std::uint32_t points,
 
 struct ChiSquare {
   double statistic = 0;
-  double z = 0;  // the statistic's normal score [Wilson and Hilferty 1931]
+  double z = 0;  // its normal score, by Wilson and Hilferty's cube root
 };
 
 // Against `density`; texels of fewer than 5 expected samples are pooled in reading order.
