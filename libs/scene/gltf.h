@@ -38,8 +38,8 @@ struct GltfDocument {
   std::vector<int> roots;  // of the default scene
   std::vector<GltfCamera> cameras;
   std::vector<GltfLight> lights;
-  // By material name: KHR_materials_specular's reflectance at normal incidence. Assimp 5.2 hands over materials
-  // in another order.
+  // By material name: KHR_materials_specular's reflectance at normal incidence. Assimp 5.2 hands over
+  // materials in another order.
   std::map<std::string, Vec3> specular;
   std::vector<std::filesystem::path> files;  // external buffers, and images that materials use
   std::vector<std::string> warnings;

@@ -22,6 +22,7 @@ std::vector<std::string> arguments_of(const std::string& text, const std::vector
     std::getline(words, rest);
     while (!rest.empty() && (rest.back() == '\r' || rest.back() == ' ')) rest.pop_back();
     if (rest.starts_with('-')) rest = rest.substr(rest.find_last_of(' ') + 1);
+    std::replace(rest.begin(), rest.end(), '\\', '/');
     if (!rest.empty()) out.push_back(rest);
   }
   return out;

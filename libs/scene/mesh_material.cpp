@@ -3,6 +3,7 @@
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -26,6 +27,14 @@ Vec3 colour_of(const aiMaterial& material, const char* key, unsigned type, unsig
   return {static_cast<double>(value.r), static_cast<double>(value.g), static_cast<double>(value.b)};
 }
 
+// An image as a mesh file names it: literally, with escapes, or with the backslashes of another system.
+fs::path find_image(const fs::path& folder, std::string name) {
+  if (fs::exists(folder / name)) return folder / name;
+  name = decode_percent(name);
+  if (!fs::exists(folder / name)) std::replace(name.begin(), name.end(), '\\', '/');
+  return folder / name;
+}
+
 int import_texture(const aiScene& scene, const aiMaterial& material, aiTextureType type, bool srgb,
                    const fs::path& folder, TexturePool& textures, std::vector<std::string>& warnings) {
   aiString path;
@@ -43,8 +52,7 @@ int import_texture(const aiScene& scene, const aiMaterial& material, aiTextureTy
     const std::span bytes(reinterpret_cast<const unsigned char*>(embedded->pcData), embedded->mWidth);
     return textures.add(name, srgb, [&] { return read_texture(bytes, embedded->achFormatHint, name, srgb); });
   }
-  const fs::path literal = folder / path.C_Str();
-  return textures.add(fs::exists(literal) ? literal : folder / decode_percent(path.C_Str()), srgb);
+  return textures.add(find_image(folder, path.C_Str()), srgb);
 }
 
 // Blended materials count as cut-outs at one half. Without a texture the whole surface is either there or
