@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "artifact/artifact.h"
+
+namespace vsgl::test {
+
+// Indirect radiance without visibility, with every RSM texel as a point light, in double precision: what all
+// methods without shadow maps approximate [Keller 1997].
+struct VplSum {
+  std::vector<Vec3> diffuse, specular;  // per pixel, W/(m^2 sr)
+  // Pixels that see a surface and lie farther from every lit texel than that texel's footprint: there the sum
+  // is finite and smooth.
+  std::vector<bool> compared;
+  std::size_t left_out = 0;  // pixels that see a surface and are not compared
+};
+
+VplSum vpl_sum(const GBuffer& gbuffer, const Rsm& rsm);
+
+// Every lit texel as a light of its own: footprint and lobes of level 0 of the moment pyramid.
+Lights lights_per_texel(const Rsm& rsm);
+
+// Sum of the reflected powers of all texels, and of all lights, W, luminance.
+double reflected_power(const Rsm& rsm);
+double emitted_power(const Lights& lights);
+
+// Mean luminance of an image over the mean of the sum, and relative mean squared error with epsilon 2% of the
+// mean (squared), over the compared pixels.
+struct Agreement {
+  double mean_ratio = 0, relative_mse = 0;
+};
+Agreement agreement(const Indirect& image, const VplSum& truth);
+
+}  // namespace vsgl::test
