@@ -89,6 +89,18 @@ std::string left_over(const CLI::App& app) {
 
 }  // namespace
 
+// The description starts at this column, at least two spaces behind the option or on the next line.
+std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
+  constexpr std::size_t column = 40;
+  std::string line = "  " + make_option_name(option, is_positional) + make_option_opts(option);
+  if (line.size() + 2 > column) {
+    line += "\n" + std::string(column, ' ');
+  } else {
+    line.resize(column, ' ');
+  }
+  return line + make_option_desc(option) + "\n";
+}
+
 std::string HelpFormatter::make_option_name(const CLI::Option* option, bool is_positional) const {
   const std::string names = CLI::Formatter::make_option_name(option, is_positional);
   return CLI::detail::find_and_replace(names, ",", ", ");  // "-o, --output"

@@ -17,7 +17,7 @@ inline constexpr const char* kCommonGroup = "Common options";
 // it.
 class HelpFormatter : public CLI::Formatter {
  public:
-  HelpFormatter() { column_width(40); }
+  std::string make_option(const CLI::Option* option, bool is_positional) const override;
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;

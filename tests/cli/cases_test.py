@@ -9,8 +9,8 @@ A file holds {"setup": [...], "command": [...], "outputs": [...], "cases": [...]
   env              environment variables
   status           expected exit status
   stderr_matches   regular expression that the one error line matches (status 2 and above)
-  no_files         files that must not be there afterwards; by default `outputs`
-  files            files that must be there afterwards, whole
+  files            files that must be there afterwards (status 0 and 1)
+A failure (status 2 and above) must leave every file as it was, and no new one.
 Words of setup commands: a tool, exr_corrupt, or one of BUILTINS. "{fixture}" stands for the folder of shared artifacts."""
 
 import argparse
@@ -19,9 +19,9 @@ import pathlib
 import shutil
 import tempfile
 
-from blackbox import require, run, run_checks
+from blackbox import Failure, require, run, run_checks
 
-KEYS = {"name", "setup", "replace", "append", "env", "status", "stderr_matches", "no_files", "files"}
+KEYS = {"name", "setup", "replace", "append", "env", "status", "stderr_matches", "files"}
 
 
 def write(folder, name, text):
@@ -73,6 +73,11 @@ BUILTINS = {"write": write, "copy": copy, "truncate": truncate, "json-set": json
             "mkdir": mkdir, "remove": remove}
 
 
+def snapshot(folder):
+    """Bytes of every file, by name."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
 class CaseFile:
     def __init__(self, path, bin_folder, fixture, folder):
         self.document = json.loads(path.read_text())
@@ -95,10 +100,10 @@ class CaseFile:
                 run([self.bin / program, *arguments], cwd=folder).expect_success()
 
     def command(self, case):
-        words = list(self.document["command"])
-        for old, new in case.get("replace", {}).items():
-            require(old in words, f"the command has no argument {old!r}")
-            words = [new if word == old else word for word in words]
+        words, replace = self.document["command"], case.get("replace", {})
+        absent = [word for word in replace if word not in words]
+        require(not absent, f"the command has no argument {absent}")
+        words = [replace.get(word, word) for word in words]
         program, *arguments = self.expand(words + case.get("append", []))
         return [self.bin / program, *arguments]
 
@@ -108,6 +113,7 @@ class CaseFile:
         shutil.rmtree(self.scratch, ignore_errors=True)
         shutil.copytree(self.inputs, self.scratch)
         self.prepare(case.get("setup", []), self.scratch)
+        before = snapshot(self.scratch)
         result = run(self.command(case), cwd=self.scratch, env=case.get("env"))
         if case["status"] < 2:
             require(result.status == case["status"], f"{result}: expected status {case['status']}")
@@ -115,10 +121,12 @@ class CaseFile:
             result.expect_error(case["status"], case["stderr_matches"])
         for name in case.get("files", []):
             require((self.scratch / name).is_file(), f"{result}: {name} is missing")
-        for name in case.get("no_files", [] if case["status"] < 2 else self.outputs):
-            require(not (self.scratch / name).exists(), f"{result}: {name} was left")
-        left = [str(path) for path in self.scratch.rglob(".*.tmp-*")]
-        require(not left, f"{result}: temporary files were left: {left}")
+        after = snapshot(self.scratch)
+        if case["status"] >= 2:
+            changed = sorted(name for name in before.keys() | after.keys() if before.get(name) != after.get(name))
+            require(not changed, f"{result}: the failure made or changed {changed}")
+        temporary = [name for name in after if ".tmp-" in name]
+        require(not temporary, f"{result}: temporary files were left: {temporary}")
 
     def checks(self):
         self.prepare(self.document.get("setup", []), self.inputs)
@@ -137,7 +145,12 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         case_file = CaseFile(arguments.cases, arguments.bin.resolve(), arguments.fixture.resolve(), pathlib.Path(folder))
-        return run_checks(case_file.checks())
+        try:
+            checks = case_file.checks()
+        except (Failure, OSError) as failure:
+            print(f"FAIL setup\n{failure}")
+            return 1
+        return run_checks(checks)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 // Makes a broken copy of an EXR artifact, for the black-box tests of the tools' readers.
 //
-//   exr_corrupt IN OUT drop-channel CHANNEL       leaves the channel out of every part and level
+//   exr_corrupt IN OUT drop-channel CHANNEL       leaves the channel out of every part and level; a part's only channel is renamed
 //   exr_corrupt IN OUT set-channel CHANNEL VALUE  first pixel of the first part that has it (a float, also
 //   nan or inf) exr_corrupt IN OUT retype-channel CHANNEL     FLOAT becomes UINT and the other way round
 //   exr_corrupt IN OUT resize                     one column and one row more (twice the side for MIPMAP
@@ -46,7 +46,13 @@ void require_found(bool found, const std::string& name) {
 void drop_channel(ExrFile& file, const std::string& name) {
   std::size_t dropped = 0;
   for (ExrPart& part : file.parts) {
-    for (ExrLevel& level : part.levels) dropped += level.channels.erase(name);
+    for (ExrLevel& level : part.levels) {
+      auto channel = level.channels.extract(name);
+      if (channel.empty()) continue;
+      ++dropped;
+      channel.key() = "renamed.V";
+      if (level.channels.empty()) level.channels.insert(std::move(channel));
+    }
   }
   require_found(dropped > 0, name);
 }
