@@ -326,5 +326,21 @@ TEST_F(SceneJson, SchemaNamesTheSameKeys) {
   }
 }
 
+TEST_F(SceneJson, CommittedScenesLoad) {
+  const std::filesystem::path scenes = std::filesystem::path(VSGL_SOURCE_DIR) / "configs/scenes";
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
+    SCOPED_TRACE(entry.path());
+    ++count;
+    if (!std::filesystem::exists("/usr/share/glmark2/models"))
+      GTEST_SKIP() << "glmark2-data is not installed";
+    const Scene scene = scene::load_scene(entry.path());
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+    EXPECT_EQ(scene.lights.size(), 3u);
+    EXPECT_EQ(scene.triangle_count(), 69666u);
+  }
+  EXPECT_EQ(count, 1);
+}
+
 }  // namespace
 }  // namespace vsgl::test
