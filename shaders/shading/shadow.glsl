@@ -20,7 +20,8 @@ float visibility(Receiver r, uint index) {
   vec3 v = r.position - view.origin;
   float d = length(v);
   float size = float(push.tile);
-  vec2 e = hemi_octahedral_encode(vec3(v * frame).xyz / max(d, 1e-18));
+  vec3 u = v * frame;
+  vec2 e = hemi_octahedral_encode(u / max(d, 1e-18));
   float texel = sqrt(hemi_octahedral_solid_angle(e, size));
   float c = abs(dot(r.geometric, v)) / max(d, 1e-18);
   float s = sqrt(max(1.0 - c * c, 0.0));
@@ -37,7 +38,8 @@ float visibility(Receiver r, uint index) {
   // Lit where biased <= distance in the map; an empty texel (0) always is.
   vec4 lit = vec4(lessThanEqual(nearest * biased, vec4(1.0)));
   float share = mix(mix(lit.x, lit.y, f.x), mix(lit.z, lit.w, f.x), f.y);
-  return w.z > 0.0 ? share : 0.0;
+  // Both: the light's own surface, moved along its normal, would see itself.
+  return min(u.z, w.z) > 0.0 ? share : 0.0;
 }
 
 #endif

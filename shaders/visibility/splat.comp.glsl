@@ -1,4 +1,4 @@
-// [Ritschel 2008, Sec. 3.2] splats the points of each light into its imperfect shadow map: one workgroup a light.
+// [Ritschel 2008] splats the points of each light into its imperfect shadow map: one workgroup a light.
 // Deviation: a point is drawn as the disk it stands for, so that surfaces seen at a slant do not swell: it covers the
 // texels whose centre rays meet the disk, at the distances where they do, and always the texel that holds its centre.
 // (In a room with 8192 points a light, square splats of the best size leave 1.5 times the error.)

@@ -95,7 +95,7 @@ bool is_hole(const scene::Scene& scene, const scene::Material& material, double 
   return texture.rgba[4 * pixel + 3] / 255.0 < material.alpha_cutoff;
 }
 
-// [Ritschel 2008, Sec. 3.1] points on the surfaces, at random there.
+// [Ritschel 2008] points on the surfaces, at random there.
 // Deviation: point k takes the share frac(k phi) of the area, phi the golden ratio, so that any run of
 // consecutive points is stratified over the triangles. Inside its triangle one coordinate is the residual of
 // that share, the other a hash: a second Kronecker coordinate would put the points of one triangle on a few

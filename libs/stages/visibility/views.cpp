@@ -22,7 +22,7 @@ interop::SplatView make_view(const interop::Light& light, double scene_radius, d
   const Vec3 axis = normalise(widen(light.normal));
   const Vec3 surface = widen(light.origin);
   interop::SplatView view;
-  view.origin = narrow(surface + std::max(1e-3 * scene_radius, 0.25 * sigma) * axis);
+  view.origin = narrow(surface + 1e-4 * scene_radius * axis);
   view.near_distance = static_cast<float>(std::max(0.5 * disk_radius, 0.5 * sigma));
   view.axis = narrow(axis);
   view.own_radius = static_cast<float>(3 * sigma);

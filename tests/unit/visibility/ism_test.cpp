@@ -120,6 +120,22 @@ TEST(Ism, BehindTheEmittingSurfaceNothingIsLit) {
   EXPECT_EQ(shadow_visibility(maps, 0, {0.2, 0.1, 2}, {0, 0, -1}), 1);
 }
 
+// A flat surface does not light itself, and lights the floor right up to the edge that they share.
+TEST(Ism, ConcaveEdgesHaveNoSeams) {
+  for (const double height : {0.1, 0.3, 0.8}) {
+    const auto maps = build(room(), {make_light({-1, 0.1, height}, {1, 0, 0}, 0.01 * height * height)});
+    for (const double x : {0.002, 0.01, 0.05, 0.2}) {
+      double lit = 0;
+      for (int i = 0; i < 40; ++i) {
+        const double y = -0.9 + 0.045 * i;
+        EXPECT_EQ(shadow_visibility(maps, 0, {-1, y, x}, {1, 0, 0}), 0);
+        lit += shadow_visibility(maps, 0, {-1 + x, y, 0}, {0, 0, 1}) / 40;
+      }
+      EXPECT_GT(lit, 0.9) << "light at " << height << ", " << x << " from the edge";
+    }
+  }
+}
+
 TEST(Ism, ConvexRoomShadowsNothing) {
   const auto lights = wall_lights(48, 1e-3);
   const auto maps = build(room(), lights);
