@@ -87,8 +87,7 @@ void check_lights(gpu::Device&, const std::filesystem::path& path) {
 
 ShadowMaps make_maps(gpu::Device& device, const Lights& lights, const std::string& method) {
   Report report;
-  return build_shadow_maps(room_scene(), lights, {.method = method, .points_per_light = 4096, .tile = 32},
-                           device, report);
+  return build_shadow_maps(room_scene(), lights, {.method = method}, device, report);
 }
 
 // Against rays to every third pixel, weighted by the cosines at both ends.
@@ -111,7 +110,7 @@ void check_maps(gpu::Device& device, const std::filesystem::path& path) {
       weight += w;
     }
   EXPECT_GT(hidden / weight, 0.01);
-  EXPECT_LT(error / weight, 0.1);
+  EXPECT_LT(error, 0.5 * hidden);  // without shadows they would be equal
 }
 
 // ---- shading
