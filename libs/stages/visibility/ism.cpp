@@ -1,9 +1,9 @@
 #include "stages/visibility/ism.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
-#include <numeric>
+#include <span>
 
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
@@ -43,9 +43,10 @@ struct FillCounts {
   std::uint64_t filled = 0, replaced = 0;
 };
 
-constexpr std::size_t max_batch_texels = std::size_t{1}
-                                         << 24;  // 64 MiB: half of what lavapipe lets a shader see
-constexpr std::size_t max_batch_views = 32768;   // groups in one dimension: 65535 everywhere
+// 64 MiB: half of what every device lets a shader see of a buffer.
+constexpr std::size_t max_batch_texels = std::size_t{1} << 24;
+// Devices take at least 65535 groups in one dimension.
+constexpr std::size_t max_batch_views = 32768;
 
 std::size_t texels_of(int tile) {
   return static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile);
