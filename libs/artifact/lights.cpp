@@ -50,9 +50,12 @@ void check_directions(const ExrFile& file, const ExrPart& part, const std::vecto
 
 }  // namespace
 
+// A cluster may hold specular power although the point that represents it has no specular lobe.
 bool Lights::has_specular() const {
-  return std::any_of(lights.begin(), lights.end(),
-                     [](const Light& light) { return light.ndf != interop::NDF_NONE; });
+  return std::any_of(lights.begin(), lights.end(), [](const Light& light) {
+    const interop::vec3& power = light.power_specular;
+    return light.ndf != interop::NDF_NONE || power.x + power.y + power.z > 0;
+  });
 }
 
 void write(const std::filesystem::path& path, const Lights& lights, const Provenance& provenance) {

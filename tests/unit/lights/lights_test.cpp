@@ -222,6 +222,15 @@ TEST(Lights, SameBytesTwice) {
   }
 }
 
+// The sampled texels are diffuse, their kernels reach a specular one: its power must survive in the artifact.
+TEST(Lights, SpecularPowerNeedsNoSpecularRepresentative) {
+  Lights lights = generate(room(), test::flux_pdf(room()), {});
+  std::erase_if(lights.lights,
+                [](const Light& l) { return l.ndf != interop::NDF_NONE || l.power_specular.x <= 0; });
+  ASSERT_FALSE(lights.lights.empty());
+  EXPECT_TRUE(lights.has_specular());
+}
+
 TEST(Lights, DescribesItself) {
   const LightsParams params;
   const Lights lights = generate(room(), test::flux_pdf(room()), params);
