@@ -201,7 +201,11 @@ class Checker {
         value.at("type").choice({"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
     accessor.components = component_count(type);
     const std::size_t size = component_size(value.at("componentType")) * accessor.components;
-    if (const auto view = value.find("bufferView")) {
+    const auto view = value.find("bufferView");
+    constexpr std::size_t most_zeros =
+        10000000;  // no data backs them, so that a short file could ask for all memory
+    if (!view && accessor.count > most_zeros) broken(value.where(), "too many values without a bufferView");
+    if (view) {
       accessor.view = views_[index(*view, views_.size())];
       accessor.stride = accessor.view->stride > 0 ? accessor.view->stride : size;
       check_extent(value, *accessor.view, accessor.offset + accessor.stride * (accessor.count - 1) + size);

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "math/frame.h"
 #include "scene/mesh_material.h"
+#include "scene/ply_file.h"
 #include "scene/transform.h"
 
 namespace vsgl::scene {
@@ -172,7 +173,7 @@ std::vector<Vertex> import_vertices(const aiMesh& mesh, const std::string& where
 
 Mesh import_mesh(const aiMesh& mesh, const std::string& file, std::vector<std::string>& warnings) {
   Mesh out;
-  out.name = mesh.mName.C_Str();
+  out.name = valid_text(mesh.mName.C_Str());
   out.material = static_cast<int>(mesh.mMaterialIndex);
   const std::vector<Vertex> vertices = import_vertices(mesh, file + ": mesh \"" + out.name + "\"", warnings);
   std::unordered_map<Vertex, std::uint32_t, VertexHash, VertexEqual> known;
@@ -203,7 +204,8 @@ class NodeReader {
       : mesh_of_(mesh_of), where_(std::move(where)), out_(out) {}
 
   void add(const aiNode& node, int parent) {
-    const int self = append(node, {node.mName.C_Str(), parent, matrix(node.mTransformation), {}, -1, -1});
+    const int self =
+        append(node, {valid_text(node.mName.C_Str()), parent, matrix(node.mTransformation), {}, -1, -1});
     for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], self);
   }
 
@@ -296,6 +298,7 @@ MeshFile load_mesh_file(const fs::path& path, bool all_tangents, TexturePool& te
                 path.string() + ": the mesh file is missing; check the path in the scene JSON");
   }
   const GltfDocument document = format == MeshFormat::gltf ? read_gltf(path) : GltfDocument{};
+  if (format == MeshFormat::ply) check_ply_file(path);
   Assimp::Importer importer;
   const aiScene& scene = read_scene(importer, path, format);
   complete_meshes(importer, format, all_tangents, path.string());

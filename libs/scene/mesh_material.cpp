@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "interop/model.h"
@@ -46,7 +47,7 @@ int import_texture(const aiScene& scene, const aiMaterial& material, aiTextureTy
                        ": texture coordinates of set 0 are used instead of set " + std::to_string(uv_set));
   }
   if (const aiTexture* embedded = scene.GetEmbeddedTexture(path.C_Str())) {
-    const std::string name = (folder / path.C_Str()).string();
+    const std::string name = valid_text((folder / path.C_Str()).string());
     if (embedded->mHeight != 0)
       throw Error(ErrorCode::texture_unreadable, name + ": raw embedded texels are not supported");
     const std::span bytes(reinterpret_cast<const unsigned char*>(embedded->pcData), embedded->mWidth);
@@ -96,10 +97,15 @@ void import_mtl(const aiMaterial& material, Material& out, std::vector<std::stri
 
 }  // namespace
 
+std::string valid_text(const std::string& name) {
+  using nlohmann::json;
+  return json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
 Material import_material(const aiScene& scene, const aiMaterial& material, MeshFormat format,
                          const fs::path& folder, TexturePool& textures, std::vector<std::string>& warnings) {
   Material out;
-  out.name = material.GetName().C_Str();
+  out.name = valid_text(material.GetName().C_Str());
   const auto texture = [&](aiTextureType type, bool srgb) {
     return import_texture(scene, material, type, srgb, folder, textures, warnings);
   };

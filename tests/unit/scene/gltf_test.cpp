@@ -287,12 +287,15 @@ TEST_F(Gltf, BrokenFiles) {
   broken("/bufferViews/0/buffer", 7, {"/bufferViews/0/buffer", "index 7 of 1"});
   broken("/accessors/0/count", 4, {"/accessors/0", "view of 36 bytes"});
   broken("/accessors/0/bufferView", 9, {"/accessors/0/bufferView"});
+  broken("/accessors/0", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 2000000000}},
+         {"/accessors/0", "too many"});
   broken("/accessors/0/type", "VEC9", {"/accessors/0/type"});
   broken("/accessors/3/componentType", 5126, {"/accessors/3"});
   broken("/meshes/0/primitives/0/indices", 4, {"/meshes/0/primitives/0/indices", "index 4"});
   broken("/meshes/0/primitives/0/attributes/POSITION", 11, {"POSITION"});
   broken("/meshes/0/primitives/0/attributes", {{"NORMAL", 2}}, {"POSITION"});
-  broken("/meshes/0/primitives/0/attributes/NORMAL", 3, {"/meshes/0/primitives/0/attributes/NORMAL"});
+  broken("/meshes/0/primitives/0/attributes/NORMAL", 3,
+         {"wrong type", "/meshes/0/primitives/0/attributes/NORMAL"});
   broken("/nodes/0/children", {0}, {"cycle"});
   broken("/nodes/0/mesh", 5, {});
   broken("/nodes/0/camera", 0, {"/nodes/0/camera"});

@@ -52,6 +52,16 @@ TEST_F(MeshFormats, ObjWithMaterialLibrary) {
   EXPECT_EQ(names, (std::vector<std::string>{"scene.json", "quad.obj", "quad.mtl", "quad.ppm"}));
 }
 
+// Names in another encoding than UTF-8 must not spoil the tools' JSON.
+TEST_F(MeshFormats, NamesBecomeUtf8) {
+  folder.write("quad.obj", obj_quad);
+  folder.write("quad.mtl", "newmtl sh\xEFny\nKd 0.7 0.7 0.7\nKs 0.7 0.7 0.7\n");
+  folder.write("quad.obj", std::string(obj_quad).replace(std::string(obj_quad).find("shiny"), 5, "sh\xEFny"));
+  const Scene scene = load("quad.obj");
+  EXPECT_EQ(scene.materials[0].name, "sh\xEF\xBF\xBDny");
+  EXPECT_TRUE(has_warning(scene, "\"sh\xEF\xBF\xBDny\""));
+}
+
 TEST_F(MeshFormats, ObjWithoutItsLibraryIsDiffuse) {
   folder.write("quad.obj", obj_quad);
   const Scene scene = load("quad.obj");
@@ -92,6 +102,25 @@ TEST_F(MeshFormats, BrokenFiles) {
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   expect_broken("index.ply", header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n", ErrorCode::mesh_unreadable);
   expect_broken("nan.ply", header + "0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n", ErrorCode::mesh_invalid);
+  // Files of this kind crash Assimp 5.2 or keep it busy forever.
+  const auto expect_bad_ply = [&](std::string text, const std::string& from, const std::string& to,
+                                  const std::string& fragment) {
+    SCOPED_TRACE(to);
+    ASSERT_NE(text.find(from), std::string::npos);
+    folder.write("bad.ply", text.replace(text.find(from), from.size(), to));
+    expect_error(ErrorCode::mesh_unreadable, {"bad.ply", fragment}, [&] { load("bad.ply"); });
+  };
+  const std::string good = header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  expect_bad_ply(good, "end_header", "end`header", "not understood");
+  expect_bad_ply(good, "element vertex 3", "elem8nt vertex 3", "not understood");
+  expect_bad_ply(good, "float x", "flaot x", "unknown type");
+  expect_bad_ply(good, "element vertex 3", "element vertex 99999999999", "ends too early");
+  expect_bad_ply(good, "3 0 1 2", "3 0 1", "ends too early");
+  expect_bad_ply(good, "3 0 1 2", "3 0 1 -1", "vertex -1 of 3");
+  expect_bad_ply(good, "3 0 1 2", "-3 0 1 2", "negative length");
+  expect_bad_ply(good, "1 0 0", "1 zero 0", "not a number");
+  expect_bad_ply(good, "format ascii 1.0\n", "", "format");
+  expect_bad_ply(good, "format ascii", "format binary_little_endian", "element");
   expect_broken("empty.ply", "", ErrorCode::mesh_unreadable);
   expect_broken("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n", ErrorCode::mesh_unreadable);
   expect_broken("model.stl", "solid\nendsolid\n", ErrorCode::mesh_unreadable);

@@ -131,6 +131,14 @@ TEST_F(SceneJson, MaterialOverrides) {
   EXPECT_EQ(m.metallic, 1);
   EXPECT_EQ(m.base_color, (Vec3{0.5, 0.5, 0.5}));
 
+  // A stated reflectance makes glTF's metal a dielectric, unless it says metallic as well.
+  Json gltf = triangle_gltf(folder);
+  gltf["materials"][0]["pbrMetallicRoughness"].erase("metallicFactor");
+  folder.write_json("mesh.gltf", gltf);
+  EXPECT_EQ(material(paint({{"alpha", 0.5}})).metallic, 1);
+  EXPECT_EQ(material(paint({{"specular", 0.1}})).metallic, 0);
+  EXPECT_EQ(material(paint({{"diffuse", 0.1}, {"metallic", 1}})).metallic, 1);
+
   EXPECT_TRUE(has_warning(folder.load(paint({{"diffuse", 0.7}, {"specular", 0.4}})), "1.1"));
 }
 
