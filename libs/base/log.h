@@ -10,7 +10,8 @@ void log_warning(const std::string& message);
 void log_info(const std::string& message);   // shown from level 1
 void log_debug(const std::string& message);  // shown from level 2
 
-// A progress bar on stderr, drawn only when stderr is a terminal and --progress is auto. step() may be called often.
+// A progress bar on stderr, drawn only when stderr is a terminal and --progress is auto. step() may be called
+// often.
 void set_progress(bool enabled);
 class Progress {
  public:

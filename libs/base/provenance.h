@@ -6,8 +6,8 @@
 
 namespace vsgl {
 
-// Where an artifact comes from, written into its header. Holds nothing that changes between equal runs: no times, no
-// absolute paths, no thread counts.
+// Where an artifact comes from, written into its header. Holds nothing that changes between equal runs: no
+// times, no absolute paths, no thread counts.
 struct Provenance {
   std::string tool;          // "vsgl-gen"
   std::string tool_version;  // "0.1.0"

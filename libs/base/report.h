@@ -7,8 +7,8 @@
 
 namespace vsgl {
 
-// What a run tells its user: times per phase, counts, what was skipped and why, warnings. Printed as the tool's one
-// JSON object under --json, as a short table otherwise. Filled from one thread.
+// What a run tells its user: times per phase, counts, what was skipped and why, warnings. Printed as the
+// tool's one JSON object under --json, as a short table otherwise. Filled from one thread.
 class Report {
  public:
   // Adds `seconds` to the phase's time; phases keep the order in which they first appear.

@@ -14,8 +14,9 @@
 
 namespace vsgl {
 
-// A JSON value with its place (file and JSON pointer), read strictly: wrong types, values out of range, missing and
-// unknown keys are errors E3010..E3014 that name file, pointer, what was expected and, for a key, the nearest known name.
+// A JSON value with its place (file and JSON pointer), read strictly: wrong types, values out of range,
+// missing and unknown keys are errors E3010..E3014 that name file, pointer, what was expected and, for a key,
+// the nearest known name.
 class JsonValue {
  public:
   // Parses a file. Throws file_not_found, json_syntax (with line and column).

@@ -1,12 +1,13 @@
 // Makes a broken copy of an EXR artifact, for the black-box tests of the tools' readers.
 //
-//   exr_corrupt IN OUT drop-channel CHANNEL       leaves the channel out of every part and level; a part's only channel is renamed
-//   exr_corrupt IN OUT set-channel CHANNEL VALUE  first pixel of the first part that has it (a float, also
-//   nan or inf) exr_corrupt IN OUT retype-channel CHANNEL     FLOAT becomes UINT and the other way round
-//   exr_corrupt IN OUT resize                     one column and one row more (twice the side for MIPMAP
-//   parts) of zeros exr_corrupt IN OUT drop-part                  leaves the last part out exr_corrupt IN OUT
-//   drop-levels                level 0 of each part only, as scan lines exr_corrupt IN OUT drop-attribute
-//   NAME exr_corrupt IN OUT set-attribute NAME VALUE   of the attribute's own type (int, double or text)
+//   exr_corrupt IN OUT drop-channel CHANNEL       leaves the channel out of every part and level; a part's
+//   only channel is renamed exr_corrupt IN OUT set-channel CHANNEL VALUE  first pixel of the first part that
+//   has it (a float, also nan or inf) exr_corrupt IN OUT retype-channel CHANNEL     FLOAT becomes UINT and
+//   the other way round exr_corrupt IN OUT resize                     one column and one row more (twice the
+//   side for MIPMAP parts) of zeros exr_corrupt IN OUT drop-part                  leaves the last part out
+//   exr_corrupt IN OUT drop-levels                level 0 of each part only, as scan lines exr_corrupt IN OUT
+//   drop-attribute NAME exr_corrupt IN OUT set-attribute NAME VALUE   of the attribute's own type (int,
+//   double or text)
 //
 // Exit status 1 with a message when the file has nothing of that name.
 

@@ -1,25 +1,30 @@
-"""The whole chain from scene to image with the real tools: byte-identical artifacts in every run, on any number of threads.
+"""The whole chain from scene to image with the real tools: byte-identical artifacts in every run, on any number of threads, and JSON that
+its schemas describe.
 
 Usage: pipeline_test.py --bin FOLDER_OF_THE_TOOLS
 """
 
 import argparse
 import hashlib
+import json
 import pathlib
 import sys
 import tempfile
+
+import jsonschema
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "configs" / "workflow"))
 
 from blackbox import require, run, run_checks  # noqa: E402
 from chain import Chain  # noqa: E402
 
+SCHEMAS = pathlib.Path(__file__).resolve().parents[2] / "configs" / "schema"
 ARTIFACTS = ["scene.json", "scene.glb", "gbuffer.exr", "rsm.exr", "pdf.exr", "lights.exr", "lights.json", "ism.exr",
              "indirect.exr"]
 
 
 def run_chain(bin_dir, folder, *common):
-    """All stages at a tiny resolution; returns the SHA-256 of each artifact."""
+    """All stages at a tiny resolution; returns the SHA-256 of each artifact, and checks the tools' results against their schema."""
     chain = Chain(bin_dir, folder, common)
     chain.scene_gen("cornell-glossy", "--resolution", "32x24")
     chain.rsm_bake("--rsm-size", "32")
@@ -27,7 +32,16 @@ def run_chain(bin_dir, folder, *common):
     chain.vsgl_gen("--count", "48")
     chain.ismap("--points", "1024", "--tile", "16")
     chain.shade()
+    for row in chain.rows:
+        require_valid(row["result"], "result.schema.json", row["stage"])
     return {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in ARTIFACTS}
+
+
+def require_valid(instance, schema, what):
+    try:
+        jsonschema.validate(instance, json.loads((SCHEMAS / schema).read_text(encoding="utf-8")))
+    except jsonschema.ValidationError as error:
+        require(False, f"{what}: {schema}: {error.json_path}: {error.message}")
 
 
 def require_same(one, other, what):
@@ -59,11 +73,16 @@ def main():
             result = compare(folder / "first" / "indirect.exr", folder / "seeded" / "indirect.exr")
             require(result.status == 1, f"{result}: expected status 1 for images that differ")
 
+        def files_match_their_schemas():
+            for name, schema in (("scene.json", "scene.schema.json"), ("lights.json", "lights.schema.json")):
+                require_valid(json.loads((folder / "first" / name).read_text(encoding="utf-8")), schema, name)
+
         def compare_agrees():
             compare(folder / "first" / "indirect.exr", folder / "again" / "indirect.exr").expect_success()
 
         return run_checks([("the same bytes in a second run", same_again),
                            ("the same bytes on two threads", same_on_two_threads),
+                           ("scene and lights JSON match their schemas", files_match_their_schemas),
                            ("compare finds no difference between the runs", compare_agrees),
                            ("another seed gives another image", another_seed_differs)])
 
