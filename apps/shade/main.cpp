@@ -1,4 +1,5 @@
-// shade --gbuffer gbuffer.exr --lights lights.exr [--ism ism.exr] [--rsm rsm.exr] -o indirect.exr: radiance per pixel.
+// shade --gbuffer gbuffer.exr --lights lights.exr [--ism ism.exr] [--rsm rsm.exr] -o indirect.exr: radiance
+// per pixel.
 
 #include <optional>
 
@@ -17,7 +18,8 @@ struct Arguments {
 std::string list_of_methods() {
   std::string text;
   for (const auto& method : vsgl::shading_methods())
-    text += (text.empty() ? "" : "\n") + method.name + std::string(11 - method.name.size(), ' ') + method.summary;
+    text +=
+        (text.empty() ? "" : "\n") + method.name + std::string(11 - method.name.size(), ' ') + method.summary;
   return text;
 }
 
@@ -32,15 +34,18 @@ void declare(vsgl::Tool& tool, Arguments& a) {
   tool.output("-o,--output", a.output, "radiance to write")->required();
   app.add_option("--method", a.params.method, "how lights are evaluated; see --list-methods")
       ->check(CLI::IsMember(methods));
-  app.add_option("--clamp", a.params.clamp, "vpl: smallest distance, as a fraction of the scene's radius; 0: none")
+  app.add_option("--clamp", a.params.clamp,
+                 "vpl: smallest distance, as a fraction of the scene's radius; 0: none")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--specular-lobe", a.params.specular_lobe,
-                 "auto: the most accurate per normal distribution; asg: anisotropic SG, as the papers print it")
+  app.add_option(
+         "--specular-lobe", a.params.specular_lobe,
+         "auto: the most accurate per normal distribution; asg: anisotropic SG, as the papers print it")
       ->check(CLI::IsMember({"auto", "asg"}));
   app.add_option("--cbr", a.params.cbr, "consistent bias reduction: threshold of the sharpness ratio; 0: off")
       ->check(CLI::Range(0.0, 1.0));
   app.add_flag_callback(
-      "--list-methods", [] { throw CLI::CallForVersion(list_of_methods(), 0); }, "print the methods and exit");
+      "--list-methods", [] { throw CLI::CallForVersion(list_of_methods(), 0); },
+      "print the methods and exit");
 }
 
 vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
@@ -54,10 +59,12 @@ vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl:
   if (!a.ism.empty()) maps = read("read ism", vsgl::read_shadow_maps, a.ism);
   a.params.skip = !tool.common().no_skip;
 
-  vsgl::gpu::Device device({.device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
+  vsgl::gpu::Device device(
+      {.device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
   report.count("device", device.info().name);
   vsgl::Indirect image = vsgl::shade(gbuffer, lights, maps ? &*maps : nullptr, a.params, device, report);
-  if (!a.rsm.empty()) vsgl::shade_direct(gbuffer, read("read rsm", vsgl::read_rsm, a.rsm), device, report, image);
+  if (!a.rsm.empty())
+    vsgl::shade_direct(gbuffer, read("read rsm", vsgl::read_rsm, a.rsm), device, report, image);
 
   const vsgl::PhaseTimer timer(report, "write");
   vsgl::write(outputs.add(a.output), image, tool.provenance());

@@ -26,11 +26,12 @@ struct ShadingLight {
   float cos_incident;       // incident . shading_normal, at least 1e-4
   uint ndf;                 // NDF_* of the representative surface
   uint index;               // of the light in lights.exr: its tile in the shadow atlas
+  float inverse_variance;
 };
-VSGL_CHECK_SIZE(ShadingLight, 136)
+VSGL_CHECK_SIZE(ShadingLight, 140)
 
 // Lights in one uniform block of 64 KiB; the host fills less where the device's limit is lower.
-VSGL_CONST uint SHADING_BLOCK_LIGHTS = 480u;
+VSGL_CONST uint SHADING_BLOCK_LIGHTS = 468u;
 
 // Sums of one receiver, without its reflectances.
 struct ShadingSums {

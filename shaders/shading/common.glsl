@@ -41,9 +41,11 @@ void add(inout Sums sums, ShadingLight light, Transfer t) {
 
 // Luminance of the radiance that the transfer gives.
 float luminance(Receiver r, ShadingLight light, Transfer t) {
-  float y = dot(r.luminance_diffuse, light.power_diffuse * t.diffuse.x + light.power_specular * t.diffuse.y);
-  if (RECEIVER != NDF_NONE)
-    y += dot(r.luminance_specular, light.power_diffuse * t.specular.x + light.power_specular * t.specular.y);
+  float y = dot(r.luminance_diffuse, light.power_diffuse) * t.diffuse.x;
+  if (EMISSION != NDF_NONE) y += dot(r.luminance_diffuse, light.power_specular) * t.diffuse.y;
+  if (RECEIVER == NDF_NONE) return y;
+  y += dot(r.luminance_specular, light.power_diffuse) * t.specular.x;
+  if (EMISSION != NDF_NONE) y += dot(r.luminance_specular, light.power_specular) * t.specular.y;
   return y;
 }
 

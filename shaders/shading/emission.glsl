@@ -9,7 +9,7 @@
 // frame of the shading normal; the surface is seen with its geometric normal.
 vec2 exact_emission(ShadingLight light, vec3 w) {
   float seen = max(dot(light.normal, w), 0.0);
-  vec2 emission = vec2(seen / PI, 0.0);
+  vec2 emission = vec2(seen * INVERSE_PI, 0.0);
   if (EMISSION == NDF_NONE) return emission;
   uint ndf = EMISSION == NDF_ANY ? light.ndf : EMISSION;
   float alpha2 = light.alpha * light.alpha;

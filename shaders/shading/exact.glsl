@@ -24,7 +24,7 @@ float exact_specular(uint ndf, float alpha2, float cos_view, float slope_view, f
 // Radiance per unit of irradiance on a plane facing `u`, for each unit reflectance, 1/sr: nothing below the geometric horizon.
 vec2 exact_reflection(Receiver r, vec3 u) {
   float above = BUMPED == 0 || dot(r.geometric, u) > 0.0 ? 1.0 : 0.0;
-  vec2 reflection = vec2(above * max(dot(r.normal, u), 0.0) / PI, 0.0);
+  vec2 reflection = vec2(above * max(dot(r.normal, u), 0.0) * INVERSE_PI, 0.0);
   if (RECEIVER == NDF_NONE) return reflection;
   vec3 light = specular_local(r.lobe, u);
   vec3 h = vec3(r.lobe.sin_view, 0.0, r.lobe.cos_view) + light;

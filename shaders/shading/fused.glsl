@@ -21,10 +21,16 @@ float fast_erfc(float x) {
 // e^(-x^2) / (2 sqrt(pi)) - x erfc(x) / 2 for x >= 0, the rounding of a Gaussian ramp at its foot. Absolute error 1e-6; fitted likewise.
 float ramp_foot(float x) {
   float y = min(x, 4.0);
-  float p = 1.0 + y * (-0.221556731 + y * (-0.0467288047 + y * (0.00306517723 + y * (0.00511971281 - y * 0.000769337970))));
+  float p = 0.853688407 + y * (-0.189140413 + y * (-0.0398918388 + y * (0.00261670626 + y * (0.00437063948 - y * 0.000656774906))));
   float p2 = p * p;
   float p4 = p2 * p2;
-  return 0.282094792 * (p4 * p4);
+  return p4 * p4;
+}
+
+// e^x - 1 for x <= 0. Relative error 2e-5.
+float fast_expm1(float x) {
+  float series = x * (1.0 + x * (0.5 + x * (0.166666667 + x * (0.0416666667 + x * 0.00833333333))));
+  return x > -0.25 ? series : exp(x) - 1.0;
 }
 
 // Light that a pixel receives from one emission lobe.
@@ -49,32 +55,30 @@ Incoming incoming_light(vec3 u, float d2, float variance, float inverse_variance
   light.sharpness = clamp(q * inverse_variance, SHARPNESS_MIN, SHARPNESS_MAX);
   light.inverse_sharpness = min(variance * (total * inverse), 1.0 / SHARPNESS_MIN);
   light.amplitude = exp(exponent) * inverse_variance;
-  float decayed = expm1(-light.sharpness);
+  float decayed = fast_expm1(-light.sharpness);
   light.decay = 1.0 + decayed;
   light.phi = -decayed * light.inverse_sharpness;
   return light;
 }
 
-// The width t(sharpness) of the clamped cosine's Gaussian ramp, and 1 / t [Tokuyoshi 2024], as in cosine_mean().
+// The width t(sharpness) of the clamped cosine's Gaussian ramp, and 1 / t [Tokuyoshi 2024], as in cosine_mean(). From 1e5 on
+// t^2 / sharpness is constant to 1e-5.
 vec2 ramp_width(float sharpness, float inverse_sharpness) {
-  float i = min(inverse_sharpness, 1.0);
-  float s = min(sharpness, 1.0);
-  float numerator = s * s + i * (2.7360831611 * s + 17.0212977817 * i);
-  float denominator = 2.0 * (s * s * s + i * (4.0100826729 * s * s + i * (15.2191562631 * s + 76.0878962724 * i)));
+  float l = min(sharpness, 1e5);
+  float numerator = l * ((l + 2.7360831611) * l + 17.0212977817);
+  float denominator = ((2.0 * l + 8.0201653458) * l + 30.4383125262) * l + 152.1757925448;
   float inverse = 1.0 / (numerator * denominator);
-  float scale = sharpness * s;
-  float t2 = scale * numerator * numerator * inverse;
-  float t = sqrt(t2);
-  return vec2(t, t * denominator * denominator * inverse * (inverse_sharpness * max(inverse_sharpness, 1.0)));
+  float t = sqrt(sharpness * numerator * (numerator * inverse));
+  return vec2(t, t * denominator * (denominator * inverse) * inverse_sharpness);
 }
 
 // Integral of the SG times max(w.n, 0) over 2 pi, c = axis.n: cosine_integral() of lib/sg.glsl.
 // With f of [Tokuyoshi 2024] rewritten as max(c, 0) + (foot(t |c|) - foot(t)) / t.
 float cosine_integral_2pi(float c, float decay, float phi, float inverse_sharpness, vec2 width) {
-  float up = (1.0 - phi) * inverse_sharpness;
-  float low = decay * (phi - decay) * inverse_sharpness;
+  float up = 1.0 - phi;
+  float low = decay * (phi - decay);
   float f = max(c, 0.0) + (ramp_foot(width.x * abs(c)) - ramp_foot(width.x)) * width.y;
-  return low + (up - low) * clamp(f, 0.0, 1.0);
+  return (low + (up - low) * max(f, 0.0)) * inverse_sharpness;
 }
 
 // Fluence times cosine_mean().

@@ -11,6 +11,9 @@
 layout(constant_id = SHADING_RECEIVER_ID) const uint RECEIVER = NDF_NONE;
 layout(constant_id = SHADING_BUMPED_ID) const uint BUMPED = 0;
 
+// Multiplying is cheaper than dividing by a constant, which compilers must not replace.
+const float INVERSE_PI = 0.318309886;
+
 struct Receiver {
   vec3 position, normal, geometric;
   SpecularReceiver lobe;

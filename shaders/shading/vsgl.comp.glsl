@@ -10,9 +10,9 @@
 // The receiver's cosine counts as the SG that stands for a Lambert lobe.
 const float DIFFUSE_BANDWIDTH = LAMBDA_DIFFUSE;
 
-// Squared distance over the variance is the sharpness of the footprint as seen from the pixel.
-float effective_distance2(float d2, float variance) {
-  return d2;
+// The squared distance that over the variance is the sharpness of the footprint as seen from the pixel, and its inverse.
+vec2 effective_distance2(float d2, float inverse_d, float variance) {
+  return vec2(d2, inverse_d * inverse_d);
 }
 
 // The emission SGs hold the emitter's cosine.

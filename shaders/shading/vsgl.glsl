@@ -1,5 +1,5 @@
 // Virtual spherical Gaussian lights, both formulations. A kernel defines, before including this file,
-//   float effective_distance2(float d2, float variance),  vec2 emission_cosine(ShadingLight light, vec3 w)  and
+//   vec2 effective_distance2(float d2, float inverse_d, float variance),  vec2 emission_cosine(ShadingLight light, vec3 w)  and
 //   const float DIFFUSE_BANDWIDTH: sharpness that bias reduction gives the receiver's diffuse lobe.
 #ifndef VSGL_SHADING_VSGL_GLSL
 #define VSGL_SHADING_VSGL_GLSL
@@ -18,7 +18,7 @@ float specular_answer(Receiver r, Incoming incoming) {
 
 // One emission lobe: (diffuse, specular) radiance per unit of peak intensity and reflectance.
 vec2 receive(Receiver r, Incoming incoming) {
-  vec2 radiance = vec2(received_cosine(incoming, dot(incoming.axis, r.normal)) / PI, 0.0);
+  vec2 radiance = vec2(received_cosine(incoming, dot(incoming.axis, r.normal)) * INVERSE_PI, 0.0);
   if (RECEIVER != NDF_NONE)
     radiance.y = incoming.amplitude * incoming.phi * (1.0 + incoming.decay) * specular_answer(r, incoming);
   return radiance;
@@ -36,39 +36,39 @@ float geometric_horizon(Receiver r, vec3 v, float variance) {
 // [Tokuyoshi 2014, Sec. 3.3] Weight with which the SG approximation is cancelled: the light's footprint, seen as a lobe, is much
 // sharper than everything it is multiplied with. 0 where bandwidth variance / d2 reaches the threshold, 1 at half of it.
 // Deviation: a blend over a factor of two instead of a switch.
-float cancellation(Receiver r, ShadingLight light, float d2) {
+float cancellation(Receiver r, ShadingLight light, float inverse_d2) {
   float bandwidth = max(r.bandwidth, DIFFUSE_BANDWIDTH) + light.bandwidth;
-  float ratio = push.cancel_scale * bandwidth * light.variance / max(d2, 1e-18);
+  float ratio = push.cancel_scale * light.variance * bandwidth * inverse_d2;
   return smoothstep(0.0, 1.0, 2.0 - ratio);
 }
 
 void add_light(Receiver r, ShadingLight light, inout Sums sums) {
   vec3 v = light.position - r.position;
   float squared = dot(v, v);
-  vec3 u = v * inversesqrt(max(squared, 1e-36));
-  float d2 = effective_distance2(squared, light.variance);
-
-  float inverse_variance = 1.0 / light.variance;
+  float inverse_d = inversesqrt(max(squared, 1e-24));
+  vec3 u = v * inverse_d;
+  vec2 distance2 = effective_distance2(squared, inverse_d, light.variance);
   vec2 cosine = emission_cosine(light, -u);
   Incoming incoming =
-      incoming_light(u, d2, light.variance, inverse_variance, light.diffuse_axis, light.diffuse_sharpness);
+      incoming_light(u, distance2.x, light.variance, light.inverse_variance, light.diffuse_axis, light.diffuse_sharpness);
   vec2 from_diffuse = light.diffuse_scale * cosine.x * receive(r, incoming);
   vec2 from_specular = vec2(0.0);
   if (EMISSION != NDF_NONE) {
-    incoming = incoming_light(u, d2, light.variance, inverse_variance, light.specular_axis, light.specular_sharpness);
+    incoming = incoming_light(u, distance2.x, light.variance, light.inverse_variance, light.specular_axis, light.specular_sharpness);
     from_specular = light.specular_scale * cosine.y * receive(r, incoming);
   }
   float lit = SHADOWS == 0 ? 1.0 : visibility(r, light.index);
   float kept = lit;
   if (BUMPED != 0) kept *= geometric_horizon(r, v, light.variance);
+  Transfer exact = Transfer(vec2(0.0), vec2(0.0));
   if (CANCEL != 0) {
-    float cancelled = cancellation(r, light, d2);
+    float cancelled = cancellation(r, light, distance2.y);
     kept *= 1.0 - cancelled;
-    Transfer exact = exact_transfer(r, light, u, cancelled * lit / max(d2, light.variance));
-    add(sums, light, exact);
+    exact = exact_transfer(r, light, u, cancelled * lit * min(distance2.y, light.inverse_variance));
     sums.aside += luminance(r, light, exact);
   }
-  add(sums, light, Transfer(kept * vec2(from_diffuse.x, from_specular.x), kept * vec2(from_diffuse.y, from_specular.y)));
+  add(sums, light, Transfer(kept * vec2(from_diffuse.x, from_specular.x) + exact.diffuse,
+                            kept * vec2(from_diffuse.y, from_specular.y) + exact.specular));
 }
 
 #include "shading/loop.glsl"

@@ -13,9 +13,10 @@ const float DIFFUSE_BANDWIDTH = 0.0;
 
 // Half of s (s + d), s = sqrt(d^2 + r^2), r^2 = 4 variance: over the variance it is the sharpness 4 pi / Omega of the cone's SG, and its
 // inverse is Omega / (pi r^2).
-float effective_distance2(float d2, float variance) {
+vec2 effective_distance2(float d2, float inverse_d, float variance) {
   float s = sqrt(d2 + 4.0 * variance);
-  return 0.5 * s * (s + sqrt(d2));
+  float effective = 0.5 * s * (s + d2 * inverse_d);
+  return vec2(effective, 1.0 / effective);
 }
 
 // specular_scale holds 1 / cosine at the lobe's own axis, so that a sharp lobe keeps its power.

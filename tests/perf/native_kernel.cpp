@@ -1,5 +1,6 @@
-// The mathematics of shaders/shading/fused.glsl, vsgl.glsl and emission.glsl in plain C++ for the compiler's vectoriser, with the
-// exponentials of the C library's vector mathematics. Built once per vector width, as VSGL_NATIVE_WIDTH.
+// The mathematics of shaders/shading/fused.glsl, vsgl.glsl and emission.glsl in plain C++ for the compiler's
+// vectoriser, with the exponentials of the C library's vector mathematics. Built once per vector width, as
+// VSGL_NATIVE_WIDTH.
 
 #include "native_kernel.h"
 
@@ -20,12 +21,24 @@ constexpr float kSharpnessMin = 1e-3f, kSharpnessMax = 1099511627776.0f;
 struct V3 {
   float x, y, z;
 };
-VSGL_INLINE V3 operator+(V3 a, V3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-VSGL_INLINE V3 operator-(V3 a, V3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-VSGL_INLINE V3 operator*(float s, V3 a) { return {s * a.x, s * a.y, s * a.z}; }
-VSGL_INLINE float dot(V3 a, V3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-VSGL_INLINE V3 v3(interop::vec3 v) { return {v.x, v.y, v.z}; }
-VSGL_INLINE float clamp(float x, float low, float high) { return std::min(std::max(x, low), high); }
+VSGL_INLINE V3 operator+(V3 a, V3 b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+VSGL_INLINE V3 operator-(V3 a, V3 b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+VSGL_INLINE V3 operator*(float s, V3 a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+VSGL_INLINE float dot(V3 a, V3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+VSGL_INLINE V3 v3(interop::vec3 v) {
+  return {v.x, v.y, v.z};
+}
+VSGL_INLINE float clamp(float x, float low, float high) {
+  return std::min(std::max(x, low), high);
+}
 
 VSGL_INLINE float eighth_power(float p) {
   const float p2 = p * p, p4 = p2 * p2;
@@ -34,37 +47,40 @@ VSGL_INLINE float eighth_power(float p) {
 VSGL_INLINE float fast_erfc(float x) {
   const float y = std::min(x, 4.0f);
   return eighth_power(
-      1 + y * (-0.141047396f + y * (-0.0695034639f + y * (-0.00282007664f + y * (0.00803070935f - y * 0.00107486658f)))));
+      1 + y * (-0.141047396f +
+               y * (-0.0695034639f + y * (-0.00282007664f + y * (0.00803070935f - y * 0.00107486658f)))));
 }
 VSGL_INLINE float ramp_foot(float x) {
   const float y = std::min(x, 4.0f);
-  return 0.282094792f *
-         eighth_power(1 + y * (-0.221556731f +
-                               y * (-0.0467288047f + y * (0.00306517723f + y * (0.00511971281f - y * 0.000769337970f)))));
+  return eighth_power(
+      0.853688407f +
+      y * (-0.189140413f +
+           y * (-0.0398918388f + y * (0.00261670626f + y * (0.00437063948f - y * 0.000656774906f)))));
 }
 
 struct Width {
   float t, inverse;
 };
 VSGL_INLINE Width ramp_width(float l, float inverse_l) {
-  const float i = std::min(inverse_l, 1.0f), s = std::min(l, 1.0f);
-  const float numerator = s * s + i * (2.7360831611f * s + 17.0212977817f * i);
-  const float denominator = 2 * (s * s * s + i * (4.0100826729f * s * s + i * (15.2191562631f * s + 76.0878962724f * i)));
+  const float m = std::min(l, 1e5f);
+  const float numerator = m * ((m + 2.7360831611f) * m + 17.0212977817f);
+  const float denominator = ((2 * m + 8.0201653458f) * m + 30.4383125262f) * m + 152.1757925448f;
   const float inverse = 1 / (numerator * denominator);
-  const float t = std::sqrt(l * s * numerator * numerator * inverse);
-  return {t, t * denominator * denominator * inverse * (inverse_l * std::max(inverse_l, 1.0f))};
+  const float t = std::sqrt(l * numerator * (numerator * inverse));
+  return {t, t * denominator * (denominator * inverse) * inverse_l};
 }
 VSGL_INLINE float cosine_integral_2pi(float c, float decay, float phi, float inverse_l, Width width) {
-  const float up = (1 - phi) * inverse_l, low = decay * (phi - decay) * inverse_l;
+  const float up = 1 - phi, low = decay * (phi - decay);
   const float f = std::max(c, 0.0f) + (ramp_foot(width.t * std::abs(c)) - ramp_foot(width.t)) * width.inverse;
-  return low + (up - low) * clamp(f, 0, 1);
+  return (low + (up - low) * std::max(f, 0.0f)) * inverse_l;
 }
 
 struct Incoming {
   V3 axis;
   float sharpness, inverse_sharpness, amplitude, decay, phi;
 };
-VSGL_INLINE Incoming incoming_light(V3 u, float d2, float variance, float inverse_variance, V3 axis, float sharpness) {
+VSGL_INLINE Incoming incoming_light(V3 u, float d2, float variance, float inverse_variance, V3 axis,
+                                    float sharpness) {
   const float b = variance * sharpness;
   const V3 m = d2 * u - b * axis;
   const float q = std::sqrt(dot(m, m)) + 1e-18f, total = q + b + d2, inverse = 1 / (q * total);
@@ -74,7 +90,7 @@ VSGL_INLINE Incoming incoming_light(V3 u, float d2, float variance, float invers
   in.sharpness = clamp(q * inverse_variance, kSharpnessMin, kSharpnessMax);
   in.inverse_sharpness = std::min(variance * (total * inverse), 1 / kSharpnessMin);
   in.amplitude = std::exp(-sharpness * d2 * (q * inverse) * dot(turn, turn)) * inverse_variance;
-  const float decayed = std::expm1(-in.sharpness);
+  const float decayed = std::expm1(-in.sharpness);  // faster here than the shader's polynomial
   in.decay = 1 + decayed;
   in.phi = -decayed * in.inverse_sharpness;
   return in;
@@ -86,7 +102,9 @@ struct Pixel {
   float sin_view, cos_view, alpha2, across, mirror_tangent, mirror_normal, slope_view;
 };
 
-VSGL_INLINE float slope_cosine(float alpha2, float c) { return std::sqrt(c * c + alpha2 * std::max(1 - c * c, 0.0f)); }
+VSGL_INLINE float slope_cosine(float alpha2, float c) {
+  return std::sqrt(c * c + alpha2 * std::max(1 - c * c, 0.0f));
+}
 
 struct Horizon {
   float visible, cosine;
@@ -105,17 +123,21 @@ VSGL_INLINE Horizon horizon_of(const Pixel& r, V3 light, float sharpness) {
   return {visible, clamp(cosine, 1e-4f, 1)};
 }
 
-VSGL_INLINE V3 local(const Pixel& r, V3 w) { return {dot(w, r.tangent), dot(w, r.bitangent), dot(w, r.normal)}; }
+VSGL_INLINE V3 local(const Pixel& r, V3 w) {
+  return {dot(w, r.tangent), dot(w, r.bitangent), dot(w, r.normal)};
+}
 
 VSGL_INLINE float specular_ggx(const Pixel& r, const Incoming& in) {
   const V3 light = local(r, in.axis);
   const Horizon horizon = horizon_of(r, light, in.sharpness);
-  const float spread = (1 - r.alpha2 + 1e-20f) * std::min(in.inverse_sharpness, 1e4f), c2 = r.cos_view * r.cos_view;
+  const float spread = (1 - r.alpha2 + 1e-20f) * std::min(in.inverse_sharpness, 1e4f),
+              c2 = r.cos_view * r.cos_view;
   const float top_par = 2 + spread, bottom_par = 2 * r.alpha2 + spread;
   const float top_perp = 2 * c2 + spread, bottom_perp = 2 * r.alpha2 * c2 + spread;
   const V3 h = V3{r.sin_view, 0, r.cos_view} + light;
   const float hh = std::max(dot(h, h), 1e-8f), bottom = bottom_par * bottom_perp;
-  const float form = h.x * h.x * top_par * bottom_perp + h.y * h.y * top_perp * bottom_par + h.z * h.z * bottom;
+  const float form =
+      h.x * h.x * top_par * bottom_perp + h.y * h.y * top_perp * bottom_par + h.z * h.z * bottom;
   const float inverse_form = 1 / std::max(form, bottom * hh);
   const float density =
       (hh * hh) * (bottom * inverse_form) * (std::sqrt(top_par * top_perp * bottom) * inverse_form);
@@ -127,8 +149,8 @@ VSGL_INLINE float specular_ggx(const Pixel& r, const Incoming& in) {
          (masking_below * (4 * kPi * (1 + w) * slope * sum));
 }
 
-VSGL_INLINE float exact_ggx(float alpha2, float cos_view, float slope_view, float cos_light, float numerator, float sin2,
-                       float cos2) {
+VSGL_INLINE float exact_ggx(float alpha2, float cos_view, float slope_view, float cos_light, float numerator,
+                            float sin2, float cos2) {
   const float c = std::max(cos_light, 0.0f), hh = std::max(sin2 + cos2, 1e-8f);
   const float q = std::max(sin2 + alpha2 * cos2, alpha2 * hh);
   const float below = 2 * kPi * q * q * (slope_view * c + slope_cosine(alpha2, c) * cos_view);
@@ -153,8 +175,8 @@ VSGL_INLINE Transfer exact_transfer(const Pixel& r, const interop::ShadingLight&
     const float hn = dot(h, n);
     const V3 across = h - hn * n;
     const float specular =
-        density * exact_ggx(alpha2, light.cos_incident, slope_cosine(alpha2, light.cos_incident), dot(n, w), seen,
-                            dot(across, across), hn * hn);
+        density * exact_ggx(alpha2, light.cos_incident, slope_cosine(alpha2, light.cos_incident), dot(n, w),
+                            seen, dot(across, across), hn * hn);
     const V3 l = local(r, u);
     h = V3{r.sin_view, 0, r.cos_view} + l;
     const float answer =
@@ -190,17 +212,19 @@ VSGL_INLINE Sums add_light(const Pixel& r, const interop::ShadingLight& light, f
   const V3 v = v3(light.position) - r.position;
   const float d2 = dot(v, v), inverse_variance = 1 / light.variance;
   const V3 u = (1 / std::sqrt(std::max(d2, 1e-36f))) * v;
-  const float ratio = cancel_scale * (std::max(r.across, interop::LAMBDA_DIFFUSE) + light.bandwidth) * light.variance /
-                      std::max(d2, 1e-18f);
+  const float ratio = cancel_scale * (std::max(r.across, interop::LAMBDA_DIFFUSE) + light.bandwidth) *
+                      light.variance / std::max(d2, 1e-18f);
   const float x = clamp(2 - ratio, 0, 1), cancelled = x * x * (3 - 2 * x), kept = 1 - cancelled;
-  const Received d = receive<Glossy>(
-      r, incoming_light(u, d2, light.variance, inverse_variance, v3(light.diffuse_axis), light.diffuse_sharpness),
-      kept * light.diffuse_scale);
+  const Received d = receive<Glossy>(r,
+                                     incoming_light(u, d2, light.variance, inverse_variance,
+                                                    v3(light.diffuse_axis), light.diffuse_sharpness),
+                                     kept * light.diffuse_scale);
   Received s;
   if constexpr (Glossy)
-    s = receive<Glossy>(
-        r, incoming_light(u, d2, light.variance, inverse_variance, v3(light.specular_axis), light.specular_sharpness),
-        kept * light.specular_scale);
+    s = receive<Glossy>(r,
+                        incoming_light(u, d2, light.variance, inverse_variance, v3(light.specular_axis),
+                                       light.specular_sharpness),
+                        kept * light.specular_scale);
   const Transfer exact = exact_transfer<Glossy>(r, light, u, cancelled / std::max(d2, light.variance));
   const V3 pd = v3(light.power_diffuse), ps = v3(light.power_specular);
   Sums sums{};
@@ -220,18 +244,20 @@ Components pointers(const std::array<std::vector<float>, 3>& from, std::size_t f
 }
 
 template <bool Glossy>
-void shade_chunk(const NativeReceivers& receivers, std::size_t first, const std::vector<interop::ShadingLight>& lights,
-                 float cancel_scale, NativeSums& out) {
+void shade_chunk(const NativeReceivers& receivers, std::size_t first,
+                 const std::vector<interop::ShadingLight>& lights, float cancel_scale, NativeSums& out) {
   constexpr int n = NativeReceivers::kChunk;
   alignas(64) float sums[7][n] = {};
   const Components position = pointers(receivers.position, first), normal = pointers(receivers.normal, first),
-                   tangent = pointers(receivers.tangent, first), bitangent = pointers(receivers.bitangent, first),
+                   tangent = pointers(receivers.tangent, first),
+                   bitangent = pointers(receivers.bitangent, first),
                    luminance_d = pointers(receivers.luminance_diffuse, first),
                    luminance_s = pointers(receivers.luminance_specular, first);
   const float *sin_view = receivers.sin_view.data() + first, *cos_view = receivers.cos_view.data() + first,
               *alpha2 = receivers.alpha2.data() + first, *across = receivers.across.data() + first,
               *mirror_tangent = receivers.mirror_tangent.data() + first,
-              *mirror_normal = receivers.mirror_normal.data() + first, *slope_view = receivers.slope_view.data() + first;
+              *mirror_normal = receivers.mirror_normal.data() + first,
+              *slope_view = receivers.slope_view.data() + first;
   for (const interop::ShadingLight& stored : lights) {
     const interop::ShadingLight light = stored;
 #pragma omp simd

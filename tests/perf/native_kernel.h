@@ -1,6 +1,7 @@
 #pragma once
 
-// The rival of the shading benchmark: method vsgl for diffuse or GGX pixels and lights, in C++ for one pixel a vector lane.
+// The rival of the shading benchmark: method vsgl for diffuse or GGX pixels and lights, in C++ for one pixel
+// a vector lane.
 
 #include <array>
 #include <vector>
@@ -14,7 +15,8 @@ namespace vsgl::bench {
 struct NativeReceivers {
   static constexpr int kChunk = 32;
   std::size_t count = 0;  // of pixels
-  std::array<std::vector<float>, 3> position, normal, tangent, bitangent, luminance_diffuse, luminance_specular;
+  std::array<std::vector<float>, 3> position, normal, tangent, bitangent, luminance_diffuse,
+      luminance_specular;
   std::vector<float> sin_view, cos_view, alpha2, across, mirror_tangent, mirror_normal, slope_view;
 };
 NativeReceivers make_native_receivers(const GBuffer& gbuffer);
@@ -26,12 +28,12 @@ struct NativeSums {
 
 // Two builds of the same source, for vectors of 256 and 512 bits. `threshold`: a_cbr.
 namespace width256 {
-void shade(const NativeReceivers& receivers, const std::vector<interop::ShadingLight>& lights, bool glossy, float threshold,
-           NativeSums& out);
+void shade(const NativeReceivers& receivers, const std::vector<interop::ShadingLight>& lights, bool glossy,
+           float threshold, NativeSums& out);
 }
 namespace width512 {
-void shade(const NativeReceivers& receivers, const std::vector<interop::ShadingLight>& lights, bool glossy, float threshold,
-           NativeSums& out);
+void shade(const NativeReceivers& receivers, const std::vector<interop::ShadingLight>& lights, bool glossy,
+           float threshold, NativeSums& out);
 }
 
 }  // namespace vsgl::bench

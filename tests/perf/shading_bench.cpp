@@ -1,4 +1,5 @@
-// Light-pixel evaluations per second of the production shading kernel and of a native twin on the same data, in one run.
+// Light-pixel evaluations per second of the production shading kernel and of a native twin on the same data,
+// in one run.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -58,7 +59,8 @@ double difference(const vsgl::GBuffer& gbuffer, const vsgl::Indirect& image, con
   double peak = 0, worst = 0;
   for (std::size_t i = 0; i < image.diffuse.size(); ++i) {
     const auto at = [&](std::size_t k) { return static_cast<double>(sums.channels[k][i]); };
-    const vsgl::Vec3 rd = vsgl::test::to_double(gbuffer.pixels[i].diffuse), rs = vsgl::test::to_double(gbuffer.pixels[i].specular);
+    const vsgl::Vec3 rd = vsgl::test::to_double(gbuffer.pixels[i].diffuse),
+                     rs = vsgl::test::to_double(gbuffer.pixels[i].specular);
     const vsgl::Vec3 native = rd * vsgl::Vec3{at(0), at(1), at(2)} + rs * vsgl::Vec3{at(3), at(4), at(5)};
     vsgl::Vec3 device = vsgl::test::to_double(image.diffuse[i]);
     if (!image.specular.empty()) device += vsgl::test::to_double(image.specular[i]);
@@ -92,7 +94,8 @@ nlohmann::ordered_json measure(const Options& options, const Case& c, vsgl::gpu:
     device_times.push_back(device_seconds(report));
     native_times.push_back(seconds);
   }
-  const double on_device = evaluations / median(device_times) * 1e-6, in_native = evaluations / median(native_times) * 1e-6;
+  const double on_device = evaluations / median(device_times) * 1e-6,
+               in_native = evaluations / median(native_times) * 1e-6;
   return {{"case", c.name},
           {"vector_bits", bits},
           {"device_mega_evaluations_per_s", on_device},
@@ -107,20 +110,22 @@ int run(const Options& options) {
                                 {"pixels", options.width * options.height},
                                 {"lights", options.lights},
                                 {"kernels", nlohmann::ordered_json::array()}};
-  std::printf("shading kernel on %s, method vsgl, %dx%d pixels, %d lights\n", device.info().name.c_str(), options.width,
-              options.height, options.lights);
+  std::printf("shading kernel on %s, method vsgl, %dx%d pixels, %d lights\n", device.info().name.c_str(),
+              options.width, options.height, options.lights);
   std::printf("%-10s%14s%14s%8s%13s\n", "pixels", "device M/s", "native M/s", "ratio", "difference");
   bool agree = true;
   for (const Case& c : kCases) {
     const auto row = measure(options, c, device);
     std::printf("%-10s%14.1f%14.1f%8.2f%13.1e\n", c.name, row["device_mega_evaluations_per_s"].get<double>(),
-                row["native_mega_evaluations_per_s"].get<double>(), row["ratio"].get<double>(), row["difference"].get<double>());
+                row["native_mega_evaluations_per_s"].get<double>(), row["ratio"].get<double>(),
+                row["difference"].get<double>());
     agree = agree && row["difference"].get<double>() < kTolerance;
     result["kernels"].push_back(row);
   }
   if (!options.output.empty() && !(std::ofstream(options.output) << result.dump(2) << "\n"))
     throw vsgl::Error(vsgl::ErrorCode::write_failed, options.output + ": cannot be written");
-  if (!agree) std::fprintf(stderr, "shading_bench: the two images differ by more than %g of the peak\n", kTolerance);
+  if (!agree)
+    std::fprintf(stderr, "shading_bench: the two images differ by more than %g of the peak\n", kTolerance);
   return agree ? 0 : 1;
 }
 
@@ -133,7 +138,8 @@ int main(int argc, char** argv) {
   app.add_option("--height", options.height, "pixels")->check(CLI::Range(1, 4096));
   app.add_option("--lights", options.lights)->check(CLI::Range(1, 1 << 20));
   app.add_option("--repetitions", options.repetitions)->check(CLI::Range(1, 1000));
-  app.add_option("--threads", options.threads, "of the device; native: OMP_NUM_THREADS")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", options.threads, "of the device; native: OMP_NUM_THREADS")
+      ->check(CLI::Range(0, 1024));
   app.add_flag("--narrow", options.narrow, "the device's default vector width");
   app.add_option("--output", options.output, "JSON file to write");
   CLI11_PARSE(app, argc, argv);

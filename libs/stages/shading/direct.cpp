@@ -4,24 +4,28 @@
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
 #include "interop/shading.h"
+#include "spirv/shading/direct.comp.glsl.h"  // after <cstdint>, which it needs
 #include "stages/shading/methods.h"
 #include "stages/shading/receivers.h"
 #include "stages/shading/shading.h"
-
-#include "spirv/shading/direct.comp.glsl.h"  // after <cstdint>, which it needs
 
 namespace vsgl {
 namespace {
 
 constexpr const char* kPhase = "direct";
 
-interop::vec3 to_float(Vec3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+interop::vec3 to_float(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 interop::uint view_kind(LightType type) {
   switch (type) {
-    case LightType::spot: return interop::VIEW_SPOT;
-    case LightType::directional: return interop::VIEW_DIRECTIONAL;
-    case LightType::point: return interop::VIEW_POINT;
+    case LightType::spot:
+      return interop::VIEW_SPOT;
+    case LightType::directional:
+      return interop::VIEW_DIRECTIONAL;
+    case LightType::point:
+      return interop::VIEW_POINT;
   }
   throw Error(ErrorCode::internal, "unknown type of light");
 }
@@ -51,7 +55,8 @@ std::vector<gpu::Buffer> upload_depths(const Rsm& rsm, gpu::Device& device) {
   for (const RsmLayer& layer : rsm.layers) {
     std::vector<float> depths;
     depths.reserve(layer.surface.size());
-    for (const interop::Surface& s : layer.surface) depths.push_back(s.id == interop::NO_INSTANCE ? 0.0f : s.depth);
+    for (const interop::Surface& s : layer.surface)
+      depths.push_back(s.id == interop::NO_INSTANCE ? 0.0f : s.depth);
     buffers.push_back(gpu::Buffer::from(device, depths));
   }
   return buffers;
@@ -59,7 +64,8 @@ std::vector<gpu::Buffer> upload_depths(const Rsm& rsm, gpu::Device& device) {
 
 }  // namespace
 
-void shade_direct(const GBuffer& gbuffer, const Rsm& rsm, gpu::Device& device, Report& report, Indirect& out) {
+void shade_direct(const GBuffer& gbuffer, const Rsm& rsm, gpu::Device& device, Report& report,
+                  Indirect& out) {
   require_same_anchor("RSM", rsm.anchor, gbuffer);
   PhaseTimer timer(report, kPhase);
   std::vector<gpu::Buffer> depths = upload_depths(rsm, device);
@@ -67,7 +73,8 @@ void shade_direct(const GBuffer& gbuffer, const Rsm& rsm, gpu::Device& device, R
   for (const ReceiverList& list : sort_receivers(gbuffer, true)) {
     using gpu::Binding;
     const gpu::ComputePipeline pipeline(
-        device, direct_comp_spv, {Binding::storage, Binding::storage, Binding::storage}, sizeof(interop::DirectPush),
+        device, direct_comp_spv, {Binding::storage, Binding::storage, Binding::storage},
+        sizeof(interop::DirectPush),
         {{interop::SHADING_RECEIVER_ID, list.ndf}, {interop::SHADING_BUMPED_ID, list.bumped}});
     gpu::Buffer surfaces = gpu::Buffer::from(device, list.surfaces);
     gpu::Buffer radiance(device, list.pixels.size() * sizeof(interop::vec3));

@@ -13,13 +13,17 @@ using interop::Light;
 using interop::ShadingLight;
 using interop::vec3;
 
-constexpr double kMinVariance = 1e-12;   // of the scene's radius squared
-constexpr float kMinCosine = 1e-4f;      // as the shader library floors grazing cosines
-constexpr float kMinLobeCosine = 0.1f;   // of a specular lobe's axis at the emitter
+constexpr double kMinVariance = 1e-12;  // of the scene's radius squared
+constexpr float kMinCosine = 1e-4f;     // as the shader library floors grazing cosines
+constexpr float kMinLobeCosine = 0.1f;  // of a specular lobe's axis at the emitter
 constexpr float kNeverCancelled = 1e30f;
 
-float dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-bool is_lit(vec3 power) { return power.x > 0 || power.y > 0 || power.z > 0; }
+float dot(vec3 a, vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+bool is_lit(vec3 power) {
+  return power.x > 0 || power.y > 0 || power.z > 0;
+}
 
 // 1 / A(sharpness), A = (2 pi / l)(1 - e^(-2 l)) [Wang 2009].
 float inverse_sg_integral(float sharpness) {
@@ -32,6 +36,7 @@ ShadingLight pack_common(const Light& light, std::size_t index, double scene_rad
   ShadingLight out;
   out.position = light.position;
   out.variance = std::max(light.variance, static_cast<float>(kMinVariance * scene_radius * scene_radius));
+  out.inverse_variance = 1 / out.variance;
   out.diffuse_axis = light.diffuse_axis;
   out.diffuse_sharpness = light.diffuse_sharpness;
   out.power_diffuse = light.power_diffuse;
@@ -50,8 +55,8 @@ ShadingLight pack_common(const Light& light, std::size_t index, double scene_rad
   return out;
 }
 
-// A cluster may hold specular power although its representative point has no specular lobe: then there is no BRDF to fall back to.
-// It keeps its SG; method vpl gives it the broadest lobe.
+// A cluster may hold specular power although its representative point has no specular lobe: then there is no
+// BRDF to fall back to. It keeps its SG; method vpl gives it the broadest lobe.
 void replace_missing_brdf(ShadingLight& light) {
   if (light.ndf != interop::NDF_NONE || !is_lit(light.power_specular)) return;
   light.ndf = interop::NDF_GGX;

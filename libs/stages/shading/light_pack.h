@@ -7,8 +7,9 @@
 
 namespace vsgl {
 
-// Lights with everything that does not depend on the pixel, in the order of the artifact. Variances are floored at
-// (1e-6 scene radius)^2, so that a light in the very place of a pixel stays finite; elsewhere this changes nothing.
+// Lights with everything that does not depend on the pixel, in the order of the artifact. Variances are
+// floored at (1e-6 scene radius)^2, so that a light in the very place of a pixel stays finite; elsewhere this
+// changes nothing.
 
 // At their representative points, for method vpl.
 std::vector<interop::ShadingLight> pack_points(const Lights& lights);

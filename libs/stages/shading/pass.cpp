@@ -17,7 +17,8 @@ using interop::ShadingLight;
 using interop::ShadingSums;
 
 constexpr const char* kPhase = "shade";
-constexpr std::array<const char*, interop::NDF_ANY + 1> kNdfNames = {"diffuse", "ggx", "beckmann", "phong", "general"};
+constexpr std::array<const char*, interop::NDF_ANY + 1> kNdfNames = {"diffuse", "ggx", "beckmann", "phong",
+                                                                     "general"};
 
 // Lights that one pipeline serves, in the order of the artifact.
 struct LightList {
@@ -44,15 +45,18 @@ std::uint32_t pixels_per_invocation(std::uint32_t receiver, std::uint32_t emissi
   return receiver == interop::NDF_NONE && emission == interop::NDF_NONE ? 8 : 4;
 }
 
-void report_classes(const GBuffer& gbuffer, const std::vector<ReceiverList>& receivers, const std::vector<LightList>& lights,
-                    const ShadowMaps* maps, const ShadingKernel& kernel, Report& report) {
+void report_classes(const GBuffer& gbuffer, const std::vector<ReceiverList>& receivers,
+                    const std::vector<LightList>& lights, const ShadowMaps* maps, const ShadingKernel& kernel,
+                    Report& report) {
   std::size_t seen = 0;
   for (const ReceiverList& list : receivers) {
     report.count(std::string("pixels_") + kNdfNames[list.ndf], list.pixels.size());
     seen += list.pixels.size();
-    if (!list.bumped) report.skipped("geometric horizon", std::string(kNdfNames[list.ndf]) + " pixels have no normal map");
+    if (!list.bumped)
+      report.skipped("geometric horizon", std::string(kNdfNames[list.ndf]) + " pixels have no normal map");
   }
-  for (const LightList& list : lights) report.count(std::string("lights_") + kNdfNames[list.ndf], list.lights.size());
+  for (const LightList& list : lights)
+    report.count(std::string("lights_") + kNdfNames[list.ndf], list.lights.size());
   report.count("evaluations", seen * kernel.lights.size());
   if (seen < gbuffer.pixels.size())
     report.skipped("background", std::to_string(gbuffer.pixels.size() - seen) + " pixels see nothing");
@@ -69,7 +73,11 @@ void report_classes(const GBuffer& gbuffer, const std::vector<ReceiverList>& rec
 class Pass {
  public:
   Pass(const GBuffer& gbuffer, const ShadowMaps* maps, const ShadingKernel& kernel, gpu::Device& device)
-      : kernel_(kernel), device_(device), shadows_(maps != nullptr), atlas_(upload_atlas(maps)), views_(upload_views(maps)) {
+      : kernel_(kernel),
+        device_(device),
+        shadows_(maps != nullptr),
+        atlas_(upload_atlas(maps)),
+        views_(upload_views(maps)) {
     push_.camera = {static_cast<float>(gbuffer.camera.x), static_cast<float>(gbuffer.camera.y),
                     static_cast<float>(gbuffer.camera.z)};
     push_.cancel_scale = kernel.threshold > 0 ? 2 / kernel.threshold : 0;
@@ -84,7 +92,8 @@ class Pass {
   }
 
   // Sums of the pixels of `receivers` over all lights, in the fixed order of the lists.
-  std::vector<ShadingSums> run(const ReceiverList& receivers, const std::vector<LightList>& lights, Report& report) {
+  std::vector<ShadingSums> run(const ReceiverList& receivers, const std::vector<LightList>& lights,
+                               Report& report) {
     gpu::Buffer surfaces = gpu::Buffer::from(device_, receivers.surfaces);
     gpu::Buffer results(device_, receivers.surfaces.size() * sizeof(ShadingSums));
     results.clear();
@@ -112,7 +121,8 @@ class Pass {
   }
 
   std::size_t block_lights() const {
-    return std::min<std::size_t>(interop::SHADING_BLOCK_LIGHTS, device_.limits().maxUniformBufferRange / sizeof(ShadingLight));
+    return std::min<std::size_t>(interop::SHADING_BLOCK_LIGHTS,
+                                 device_.limits().maxUniformBufferRange / sizeof(ShadingLight));
   }
   // The whole block is bound, so that the shader's array is backed even where it is not read.
   gpu::Buffer upload_block(std::span<const ShadingLight> lights) const {
@@ -121,11 +131,13 @@ class Pass {
     return gpu::Buffer::from(device_, padded);
   }
 
-  gpu::ComputePipeline build(const ReceiverList& receivers, const LightList& lights, std::uint32_t pixels) const {
+  gpu::ComputePipeline build(const ReceiverList& receivers, const LightList& lights,
+                             std::uint32_t pixels) const {
     using gpu::Binding;
     return gpu::ComputePipeline(
         device_, kernel_.spirv,
-        {Binding::storage, Binding::uniform, Binding::storage, Binding::storage, Binding::storage}, sizeof(push_),
+        {Binding::storage, Binding::uniform, Binding::storage, Binding::storage, Binding::storage},
+        sizeof(push_),
         {{interop::SHADING_RECEIVER_ID, receivers.ndf},
          {interop::SHADING_EMISSION_ID, lights.ndf},
          {interop::SHADING_SHADOWS_ID, shadows_},
@@ -135,8 +147,9 @@ class Pass {
          {interop::SHADING_PIXELS_ID, pixels}});
   }
 
-  void dispatch(const gpu::ComputePipeline& pipeline, gpu::Buffer& surfaces, gpu::Buffer& block, gpu::Buffer& results,
-                std::size_t receivers, std::size_t lights, std::uint32_t pixels, Report& report) {
+  void dispatch(const gpu::ComputePipeline& pipeline, gpu::Buffer& surfaces, gpu::Buffer& block,
+                gpu::Buffer& results, std::size_t receivers, std::size_t lights, std::uint32_t pixels,
+                Report& report) {
     push_.receivers = static_cast<std::uint32_t>(receivers);
     push_.lights = static_cast<std::uint32_t>(lights);
     gpu::Commands commands(device_);
@@ -152,13 +165,17 @@ class Pass {
   interop::ShadingPush push_;
 };
 
-interop::vec3 product(interop::vec3 a, interop::vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-double luminance(interop::vec3 c) { return vsgl::luminance(Vec3{c.x, c.y, c.z}); }
+interop::vec3 product(interop::vec3 a, interop::vec3 b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+double luminance(interop::vec3 c) {
+  return vsgl::luminance(Vec3{c.x, c.y, c.z});
+}
 
 }  // namespace
 
-std::vector<ShadingSums> run_shading(const GBuffer& gbuffer, const ShadowMaps* maps, const ShadingKernel& kernel,
-                                     gpu::Device& device, Report& report) {
+std::vector<ShadingSums> run_shading(const GBuffer& gbuffer, const ShadowMaps* maps,
+                                     const ShadingKernel& kernel, gpu::Device& device, Report& report) {
   const std::vector<ReceiverList> receivers = sort_receivers(gbuffer, kernel.skip);
   const std::vector<LightList> lights = sort_lights(kernel.lights, kernel.skip);
   report_classes(gbuffer, receivers, lights, maps, kernel, report);
@@ -195,15 +212,16 @@ std::vector<float> cancelled_share(const Indirect& indirect, const std::vector<S
   std::vector<float> share(sums.size());
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const double total = pixel_luminance(indirect, i);
-    share[i] = total > 0 ? static_cast<float>(std::min(static_cast<double>(sums[i].aside) / total, 1.0)) : 0.0f;
+    share[i] =
+        total > 0 ? static_cast<float>(std::min(static_cast<double>(sums[i].aside) / total, 1.0)) : 0.0f;
   }
   return share;
 }
 
 }  // namespace
 
-Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const ShadowMaps* maps, const ShadingParams& params,
-                  gpu::Device& device, Report& report) {
+Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const ShadowMaps* maps,
+                  const ShadingParams& params, gpu::Device& device, Report& report) {
   kernel.threshold = static_cast<float>(params.cbr);
   kernel.asg = params.specular_lobe == "asg";
   kernel.skip = params.skip;

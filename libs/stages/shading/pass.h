@@ -1,7 +1,7 @@
 #pragma once
 
-// The driver that all shading methods share: sorts pixels and lights into classes, builds one specialised pipeline per pair of
-// classes that occurs, and sums the lights block by block.
+// The driver that all shading methods share: sorts pixels and lights into classes, builds one specialised
+// pipeline per pair of classes that occurs, and sums the lights block by block.
 
 #include <span>
 #include <vector>
@@ -24,16 +24,18 @@ struct ShadingKernel {
 };
 
 // Sums of each pixel of the G-buffer; zero where nothing is seen. `maps` may be null.
-std::vector<interop::ShadingSums> run_shading(const GBuffer& gbuffer, const ShadowMaps* maps, const ShadingKernel& kernel,
-                                              gpu::Device& device, Report& report);
+std::vector<interop::ShadingSums> run_shading(const GBuffer& gbuffer, const ShadowMaps* maps,
+                                              const ShadingKernel& kernel, gpu::Device& device,
+                                              Report& report);
 
 // Reflectance times the sums. Specular stays empty where the G-buffer has no specular pixel, unless `all`.
 Indirect compose(const GBuffer& gbuffer, const std::vector<interop::ShadingSums>& sums, bool all);
 // Luminance of the pixel's indirect light.
 double pixel_luminance(const Indirect& image, std::size_t pixel);
 
-// A VSGL method: runs `kernel` (shader and lights given) with the parameters and fills all layers but the direct light.
-Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const ShadowMaps* maps, const ShadingParams& params,
-                  gpu::Device& device, Report& report);
+// A VSGL method: runs `kernel` (shader and lights given) with the parameters and fills all layers but the
+// direct light.
+Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const ShadowMaps* maps,
+                  const ShadingParams& params, gpu::Device& device, Report& report);
 
 }  // namespace vsgl

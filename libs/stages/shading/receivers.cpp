@@ -8,10 +8,13 @@
 namespace vsgl {
 namespace {
 
-bool is_black(interop::vec3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+bool is_black(interop::vec3 c) {
+  return c.x == 0 && c.y == 0 && c.z == 0;
+}
 
 bool is_bumped(const interop::Surface& s) {
-  return s.normal.x != s.shading_normal.x || s.normal.y != s.shading_normal.y || s.normal.z != s.shading_normal.z;
+  return s.normal.x != s.shading_normal.x || s.normal.y != s.shading_normal.y ||
+         s.normal.z != s.shading_normal.z;
 }
 
 }  // namespace

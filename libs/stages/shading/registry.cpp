@@ -11,15 +11,17 @@ constexpr double kAnchorTolerance = 1e-6;  // of the scene's radius
 
 void require_range(const char* name, double value, double maximum) {
   if (!(value >= 0 && value <= maximum))
-    throw Error(ErrorCode::out_of_range, std::string(name) + ": " + std::to_string(value) + " is outside 0.." +
-                                             std::to_string(maximum) + "; choose a value within");
+    throw Error(ErrorCode::out_of_range, std::string(name) + ": " + std::to_string(value) +
+                                             " is outside 0.." + std::to_string(maximum) +
+                                             "; choose a value within");
 }
 
 }  // namespace
 
 void require_same_anchor(const std::string& what, Vec3 anchor, const GBuffer& gbuffer) {
   if (length(anchor - gbuffer.anchor) > kAnchorTolerance * gbuffer.scene_radius)
-    throw Error(ErrorCode::invalid_data, what + ": anchor differs from the G-buffer's; make both from the same scene");
+    throw Error(ErrorCode::invalid_data,
+                what + ": anchor differs from the G-buffer's; make both from the same scene");
 }
 
 const std::vector<ShadingMethod>& shading_methods() {
@@ -31,11 +33,11 @@ const std::vector<ShadingMethod>& shading_methods() {
   return methods;
 }
 
-Indirect shade(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps, const ShadingParams& params,
-               gpu::Device& device, Report& report) {
+Indirect shade(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps,
+               const ShadingParams& params, gpu::Device& device, Report& report) {
   const auto& methods = shading_methods();
-  const auto method =
-      std::find_if(methods.begin(), methods.end(), [&](const ShadingMethod& m) { return m.name == params.method; });
+  const auto method = std::find_if(methods.begin(), methods.end(),
+                                   [&](const ShadingMethod& m) { return m.name == params.method; });
   if (method == methods.end())
     throw Error(ErrorCode::bad_value, "method: \"" + params.method + "\" is none of vpl, vsgl, vsgl-2014");
   if (params.specular_lobe != "auto" && params.specular_lobe != "asg")
@@ -47,7 +49,8 @@ Indirect shade(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* m
     require_same_anchor("shadow maps", maps->anchor, gbuffer);
     if (maps->views.size() != lights.lights.size())
       throw Error(ErrorCode::wrong_size, "shadow maps: " + std::to_string(maps->views.size()) + " for " +
-                                             std::to_string(lights.lights.size()) + " lights; make them from these lights");
+                                             std::to_string(lights.lights.size()) +
+                                             " lights; make them from these lights");
   }
   return method->run(gbuffer, lights, maps, params, device, report);
 }

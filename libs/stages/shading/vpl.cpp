@@ -1,10 +1,9 @@
 #include <cstdint>
 
+#include "spirv/shading/vpl.comp.glsl.h"  // after <cstdint>, which it needs
 #include "stages/shading/light_pack.h"
 #include "stages/shading/methods.h"
 #include "stages/shading/pass.h"
-
-#include "spirv/shading/vpl.comp.glsl.h"  // after <cstdint>, which it needs
 
 namespace vsgl {
 namespace {
@@ -21,8 +20,8 @@ double clamped_fraction(const Indirect& image, const std::vector<interop::Shadin
 
 }  // namespace
 
-Indirect shade_vpl(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps, const ShadingParams& params,
-                   gpu::Device& device, Report& report) {
+Indirect shade_vpl(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps,
+                   const ShadingParams& params, gpu::Device& device, Report& report) {
   const double floor = params.clamp * gbuffer.scene_radius;
   ShadingKernel kernel;
   kernel.spirv = vpl_comp_spv;

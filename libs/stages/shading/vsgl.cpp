@@ -1,15 +1,14 @@
 #include <cstdint>
 
+#include "spirv/shading/vsgl.comp.glsl.h"  // after <cstdint>, which it needs
 #include "stages/shading/light_pack.h"
 #include "stages/shading/methods.h"
 #include "stages/shading/pass.h"
 
-#include "spirv/shading/vsgl.comp.glsl.h"  // after <cstdint>, which it needs
-
 namespace vsgl {
 
-Indirect shade_vsgl(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps, const ShadingParams& params,
-                    gpu::Device& device, Report& report) {
+Indirect shade_vsgl(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps,
+                    const ShadingParams& params, gpu::Device& device, Report& report) {
   return shade_sg({vsgl_comp_spv, pack_vsgl(lights)}, gbuffer, maps, params, device, report);
 }
 

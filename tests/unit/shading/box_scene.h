@@ -1,7 +1,7 @@
 #pragma once
 
-// The inside of the box [-1, 1]^3, seen from its centre and lit by virtual lights on its walls: input of the shading tests and of the
-// benchmark.
+// The inside of the box [-1, 1]^3, seen from its centre and lit by virtual lights on its walls: input of the
+// shading tests and of the benchmark.
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +23,18 @@ struct BoxOptions {
 inline interop::vec3 to_float(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
-inline Vec3 to_double(interop::vec3 v) { return {v.x, v.y, v.z}; }
+inline Vec3 to_double(interop::vec3 v) {
+  return {v.x, v.y, v.z};
+}
 
 // Where the ray from the centre leaves the box, and the inward normal there.
 inline void leave_box(Vec3 direction, Vec3& position, Vec3& normal) {
   const Vec3 a{std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)};
   const double reach = std::max({a.x, a.y, a.z});
   position = direction / reach;
-  normal = a.x == reach ? Vec3{-position.x, 0, 0} : a.y == reach ? Vec3{0, -position.y, 0} : Vec3{0, 0, -position.z};
+  normal = a.x == reach   ? Vec3{-position.x, 0, 0}
+           : a.y == reach ? Vec3{0, -position.y, 0}
+                          : Vec3{0, 0, -position.z};
 }
 
 // Random numbers in 0..1, the same in every run.
@@ -59,7 +63,8 @@ inline GBuffer box_gbuffer(const BoxOptions& options) {
   for (int y = 0; y < options.height; ++y)
     for (int x = 0; x < options.width; ++x) {
       Vec3 position, normal;
-      leave_box({(x + 0.5) / options.width * 2 - 1, 1 - (y + 0.5) / options.height * 2, -0.7}, position, normal);
+      leave_box({(x + 0.5) / options.width * 2 - 1, 1 - (y + 0.5) / options.height * 2, -0.7}, position,
+                normal);
       interop::Surface s;
       s.position = to_float(position);
       s.normal = to_float(normal);

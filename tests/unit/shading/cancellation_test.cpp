@@ -7,7 +7,8 @@ namespace {
 
 using test::BoxOptions;
 
-constexpr std::uint32_t kNdfs[] = {interop::NDF_NONE, interop::NDF_GGX, interop::NDF_BECKMANN, interop::NDF_PHONG};
+constexpr std::uint32_t kNdfs[] = {interop::NDF_NONE, interop::NDF_GGX, interop::NDF_BECKMANN,
+                                   interop::NDF_PHONG};
 
 BoxOptions box(std::uint32_t ndf, double sigma) {
   BoxOptions options;
@@ -25,7 +26,8 @@ TEST(Cancellation, TendsToTheSumOfExactPaths) {
       const GBuffer gbuffer = test::box_gbuffer(options);
       const Lights lights = test::box_lights(options);
       const Indirect image = test::shade_box(gbuffer, lights, {.method = method, .cbr = 0.05});
-      test::expect_near_oracle(image, [&](std::size_t i) { return test::vpl_sum(gbuffer, i, lights); }, 2e-5);
+      test::expect_near_oracle(
+          image, [&](std::size_t i) { return test::vpl_sum(gbuffer, i, lights); }, 2e-5);
       for (float share : image.cancellation) EXPECT_GT(share, 0.9999f);
     }
 }
@@ -61,7 +63,8 @@ TEST(Cancellation, IsOffAtThresholdZero) {
   const Lights lights = test::box_lights(options);
   const Indirect image = test::shade_box(gbuffer, lights, {.cbr = 0});
   EXPECT_TRUE(image.cancellation.empty());
-  test::expect_near_oracle(image, [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, false); }, 5e-3);
+  test::expect_near_oracle(
+      image, [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, false); }, 5e-3);
 }
 
 // A cluster whose representative point has no specular lobe keeps its spherical Gaussian.

@@ -32,7 +32,8 @@ Rsm floor_rsm(LightType type, bool occluder) {
   layer.light = lamp(type);
   for (int j = 0; j < kRsmSize; ++j)
     for (int i = 0; i < kRsmSize; ++i) {
-      const Vec3 plane = (2 * (i + 0.5) / kRsmSize - 1) * layer.light.right + (1 - 2 * (j + 0.5) / kRsmSize) * layer.light.up;
+      const Vec3 plane = (2 * (i + 0.5) / kRsmSize - 1) * layer.light.right +
+                         (1 - 2 * (j + 0.5) / kRsmSize) * layer.light.up;
       const bool parallel = type == LightType::directional;
       const Vec3 direction = parallel ? layer.light.forward : layer.light.forward + plane;  // y component -1
       const Vec3 origin = parallel ? layer.light.position + plane : layer.light.position;
@@ -59,7 +60,8 @@ GBuffer floor_gbuffer(int size, std::uint32_t ndf) {
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       interop::Surface s;
-      s.position = {static_cast<float>((x + 0.5) / size * 6 - 3), 0, static_cast<float>((y + 0.5) / size * 6 - 3)};
+      s.position = {static_cast<float>((x + 0.5) / size * 6 - 3), 0,
+                    static_cast<float>((y + 0.5) / size * 6 - 3)};
       s.normal = {0, 1, 0};
       s.shading_normal = test::to_float(normalise(Vec3{0.1, 1, 0.05}));
       s.diffuse = {0.5f, 0.4f, 0.3f};
@@ -78,11 +80,14 @@ Vec3 expected_radiance(const GBuffer& gbuffer, std::size_t i, const LightSource&
   const Vec3 to = parallel ? light.forward : normalise(p.position - light.position);
   const Vec3 v = p.position - light.position;
   const double along = parallel ? 1 : dot(v, light.forward);
-  if (std::abs(dot(v, light.right)) > along * light.extent_x || std::abs(dot(v, light.up)) > along * light.extent_y) return {};
+  if (std::abs(dot(v, light.right)) > along * light.extent_x ||
+      std::abs(dot(v, light.up)) > along * light.extent_y)
+    return {};
   const Vec3 irradiance = intensity_towards(light, to) / (parallel ? 1 : dot(v, v));
   Vec3 brdf = test::to_double(p.surface.diffuse) * (std::max(dot(p.normal, -to), 0.0) / std::numbers::pi);
   if (p.is_specular())
-    brdf += test::to_double(p.surface.specular) * specular_brdf_cos(p.surface.ndf, p.surface.alpha, p.normal, p.view, -to);
+    brdf += test::to_double(p.surface.specular) *
+            specular_brdf_cos(p.surface.ndf, p.surface.alpha, p.normal, p.view, -to);
   return irradiance * brdf;
 }
 
@@ -116,7 +121,8 @@ TEST(Direct, IsShadowed) {
   for (LightType type : {LightType::point, LightType::directional}) {
     SCOPED_TRACE(static_cast<int>(type));
     const GBuffer gbuffer = floor_gbuffer(128, interop::NDF_NONE);
-    const auto open = direct(gbuffer, floor_rsm(type, false)), shadowed = direct(gbuffer, floor_rsm(type, true));
+    const auto open = direct(gbuffer, floor_rsm(type, false)),
+               shadowed = direct(gbuffer, floor_rsm(type, true));
     double area = 0;
     for (std::size_t i = 0; i < open.size(); ++i)
       if (open[i].x > 0) area += (1 - static_cast<double>(shadowed[i].x / open[i].x)) * 36 / (128.0 * 128.0);

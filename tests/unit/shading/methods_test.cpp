@@ -9,7 +9,8 @@ namespace {
 using test::BoxOptions;
 using test::OracleOptions;
 
-constexpr std::uint32_t kNdfs[] = {interop::NDF_NONE, interop::NDF_GGX, interop::NDF_BECKMANN, interop::NDF_PHONG};
+constexpr std::uint32_t kNdfs[] = {interop::NDF_NONE, interop::NDF_GGX, interop::NDF_BECKMANN,
+                                   interop::NDF_PHONG};
 
 BoxOptions box(std::uint32_t receiver, std::uint32_t emission) {
   BoxOptions options;
@@ -28,7 +29,8 @@ TEST(Vpl, EqualsTheSumOfExactPaths) {
       const Lights lights = test::box_lights(options);
       ShadingParams params{.method = "vpl", .clamp = 0};
       test::expect_near_oracle(
-          test::shade_box(gbuffer, lights, params), [&](std::size_t i) { return test::vpl_sum(gbuffer, i, lights); }, 2e-5);
+          test::shade_box(gbuffer, lights, params),
+          [&](std::size_t i) { return test::vpl_sum(gbuffer, i, lights); }, 2e-5);
     }
 }
 
@@ -40,7 +42,8 @@ TEST(Vpl, FloorsTheDistanceAndReportsWhatItTakesAway) {
   Report report;
   const Indirect image = shade(gbuffer, lights, nullptr, params, test::shared_device(), report);
   const OracleOptions clamped{.clamp_distance = 0.5 * gbuffer.scene_radius};
-  test::expect_near_oracle(image, [&](std::size_t i) { return test::vpl_sum(gbuffer, i, lights, clamped); }, 2e-5);
+  test::expect_near_oracle(
+      image, [&](std::size_t i) { return test::vpl_sum(gbuffer, i, lights, clamped); }, 2e-5);
   double kept = 0, all = 0;
   for (std::size_t i = 0; i < gbuffer.pixels.size(); ++i) {
     kept += luminance(test::vpl_sum(gbuffer, i, lights, clamped).diffuse);
@@ -50,8 +53,8 @@ TEST(Vpl, FloorsTheDistanceAndReportsWhatItTakesAway) {
   EXPECT_NEAR(report.to_json()["counts"]["clamped_fraction"].get<double>(), 1 - kept / all, 1e-4);
 }
 
-// The inner loop's faster forms stay near the library's: 0.2% of the peak for the diffuse lobe; the specular lobe's share above the
-// horizon differs by up to 1%.
+// The inner loop's faster forms stay near the library's: 0.2% of the peak for the diffuse lobe; the specular
+// lobe's share above the horizon differs by up to 1%.
 TEST(Vsgl, EqualsTheLibrarysIntegrals) {
   for (const char* method : {"vsgl", "vsgl-2014"})
     for (std::uint32_t receiver : kNdfs)
@@ -65,7 +68,8 @@ TEST(Vsgl, EqualsTheLibrarysIntegrals) {
         const bool disk = params.method == "vsgl-2014";
         test::expect_near_oracle(
             test::shade_box(gbuffer, lights, params),
-            [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, disk); }, receiver == interop::NDF_NONE ? 1e-4 : 5e-3);
+            [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, disk); },
+            receiver == interop::NDF_NONE ? 1e-4 : 5e-3);
       }
 }
 
@@ -96,7 +100,8 @@ TEST(Shading, RefusesInputsOfDifferentScenes) {
   const GBuffer gbuffer = test::box_gbuffer({});
   Lights lights = test::box_lights({});
   lights.anchor = {1, 0, 0};
-  test::expect_error(ErrorCode::invalid_data, {"lights", "anchor"}, [&] { test::shade_box(gbuffer, lights, {}); });
+  test::expect_error(ErrorCode::invalid_data, {"lights", "anchor"},
+                     [&] { test::shade_box(gbuffer, lights, {}); });
   lights.anchor = {};
   ShadowMaps maps;
   maps.columns = 1;

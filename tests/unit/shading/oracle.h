@@ -35,7 +35,8 @@ struct OraclePixel {
   bool is_specular() const { return surface.ndf != interop::NDF_NONE; }
 };
 
-// Radiance per watt-weighted colour of a light that sends `density` times its exact intensity from direction u.
+// Radiance per watt-weighted colour of a light that sends `density` times its exact intensity from direction
+// u.
 inline Radiance exact_light(const OraclePixel& p, const interop::Light& light, Vec3 u, double density) {
   if (dot(p.geometric, u) <= 0) return {};
   const Vec3 normal = to_double(light.normal), shading = to_double(light.shading_normal);
@@ -43,17 +44,20 @@ inline Radiance exact_light(const OraclePixel& p, const interop::Light& light, V
   Vec3 emitted = to_double(light.power_diffuse) * (seen / std::numbers::pi);
   const double cosine = dot(shading, -u);
   if (light.ndf != interop::NDF_NONE && cosine > 0)
-    emitted += to_double(light.power_specular) *
-               (seen / cosine * specular_brdf_cos(light.ndf, light.alpha, shading, to_double(light.incident), -u));
+    emitted +=
+        to_double(light.power_specular) *
+        (seen / cosine * specular_brdf_cos(light.ndf, light.alpha, shading, to_double(light.incident), -u));
   Radiance out;
-  out.diffuse = to_double(p.surface.diffuse) * emitted * (density * std::max(dot(p.normal, u), 0.0) / std::numbers::pi);
+  out.diffuse =
+      to_double(p.surface.diffuse) * emitted * (density * std::max(dot(p.normal, u), 0.0) / std::numbers::pi);
   if (p.is_specular())
     out.specular = to_double(p.surface.specular) * emitted *
                    (density * specular_brdf_cos(p.surface.ndf, p.surface.alpha, p.normal, p.view, u));
   return out;
 }
 
-inline Radiance vpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights& lights, const OracleOptions& options = {}) {
+inline Radiance vpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights& lights,
+                        const OracleOptions& options = {}) {
   const OraclePixel p(gbuffer, index);
   Radiance sum;
   for (const interop::Light& light : lights.lights) {
@@ -69,12 +73,13 @@ inline Radiance vpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights&
 // One emission lobe as the receiver answers it.
 inline Radiance receive_lobe(const OraclePixel& p, Vec3 peak, const VsglIncoming& incoming, bool asg) {
   Radiance out;
-  out.diffuse = to_double(p.surface.diffuse) * peak *
-                (incoming.fluence * cosine_mean(dot(incoming.axis, p.normal), incoming.sharpness) / std::numbers::pi);
+  out.diffuse =
+      to_double(p.surface.diffuse) * peak *
+      (incoming.fluence * cosine_mean(dot(incoming.axis, p.normal), incoming.sharpness) / std::numbers::pi);
   if (!p.is_specular()) return out;
   const SpecularReceiver r = specular_receiver(p.surface.ndf, p.surface.alpha, p.normal, p.view);
-  const double value =
-      asg ? specular_vmf_asg(r, incoming.axis, incoming.sharpness) : specular_vmf(r, incoming.axis, incoming.sharpness);
+  const double value = asg ? specular_vmf_asg(r, incoming.axis, incoming.sharpness)
+                           : specular_vmf(r, incoming.axis, incoming.sharpness);
   out.specular = to_double(p.surface.specular) * peak * (incoming.fluence * value);
   return out;
 }
@@ -90,7 +95,8 @@ inline Radiance vsgl_sum(const GBuffer& gbuffer, std::size_t index, const Lights
   const OraclePixel p(gbuffer, index);
   Radiance sum;
   for (const interop::Light& light : lights.lights) {
-    const Vec3 v = to_double(light.position) - p.position, u = normalise(v), axis = to_double(light.specular_axis);
+    const Vec3 v = to_double(light.position) - p.position, u = normalise(v),
+               axis = to_double(light.specular_axis);
     const Vec3 normal = to_double(light.normal);
     const double diffuse_sharpness = disk ? 0 : light.diffuse_sharpness, sharpness = light.specular_sharpness;
     const double seen = std::max(dot(normal, -u), 0.0);
@@ -105,12 +111,15 @@ inline Radiance vsgl_sum(const GBuffer& gbuffer, std::size_t index, const Lights
                                     incoming(v, light.variance, axis, sharpness), options.asg);
     double weight = 0, density = 0;
     if (options.cbr > 0) {
-      const double d2 = disk ? 1 / disk_cone(length(v), 4.0 * static_cast<double>(light.variance)).density : dot(v, v);
+      const double d2 =
+          disk ? 1 / disk_cone(length(v), 4.0 * static_cast<double>(light.variance)).density : dot(v, v);
       double receiver = disk ? 0 : static_cast<double>(interop::LAMBDA_DIFFUSE);
       if (p.is_specular())
-        receiver = std::max(receiver, specular_receiver(p.surface.ndf, p.surface.alpha, p.normal, p.view).across);
+        receiver =
+            std::max(receiver, specular_receiver(p.surface.ndf, p.surface.alpha, p.normal, p.view).across);
       const double emitter = std::max(diffuse_sharpness, glossy ? sharpness : 0);
-      weight = cancellation_weight((receiver + emitter) * static_cast<double>(light.variance) / (options.cbr * d2));
+      weight = cancellation_weight((receiver + emitter) * static_cast<double>(light.variance) /
+                                   (options.cbr * d2));
       density = 1 / d2;
     }
     const Radiance exact = exact_light(p, light, u, weight * density);

@@ -9,7 +9,8 @@ namespace {
 
 constexpr int kTile = 64;
 
-// Tiles of two lights; the second one's map holds a square of half width `half` at height `height` above its origin.
+// Tiles of two lights; the second one's map holds a square of half width `half` at height `height` above its
+// origin.
 ShadowMaps square_occluder(const Lights& lights, Vec3 axis, double height, double half) {
   ShadowMaps maps;
   maps.tile = kTile;
@@ -23,7 +24,9 @@ ShadowMaps square_occluder(const Lights& lights, Vec3 axis, double height, doubl
       const double t = height / d.z;
       const Vec3 hit = frame.to_world(t * d);
       const bool blocked = std::abs(hit.x) < half && std::abs(hit.z) < half;
-      if (blocked) maps.inverse_distance[static_cast<std::size_t>(y * kTile * maps.columns + kTile + x)] = static_cast<float>(1 / t);
+      if (blocked)
+        maps.inverse_distance[static_cast<std::size_t>(y * kTile * maps.columns + kTile + x)] =
+            static_cast<float>(1 / t);
     }
   return maps;
 }
@@ -39,7 +42,8 @@ struct Ceiling {
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x) {
         interop::Surface s;
-        s.position = {static_cast<float>((x + 0.5) / size * 2 - 1), 1, static_cast<float>((y + 0.5) / size * 2 - 1)};
+        s.position = {static_cast<float>((x + 0.5) / size * 2 - 1), 1,
+                      static_cast<float>((y + 0.5) / size * 2 - 1)};
         s.normal = s.shading_normal = {0, -1, 0};
         s.diffuse = {0.5f, 0.5f, 0.5f};
         s.alpha = 1;
@@ -86,7 +90,8 @@ TEST(Shadow, CoversTheProjectedOccluder) {
 TEST(Shadow, NothingIsLitBehindTheLight) {
   const Ceiling scene(8);
   const ShadowMaps behind = square_occluder(scene.lights, {0, -1, 0}, 0.5, 0.0);
-  for (const auto& radiance : test::shade_box(scene.gbuffer, scene.lights, {}, &behind).diffuse) EXPECT_EQ(radiance.x, 0.0f);
+  for (const auto& radiance : test::shade_box(scene.gbuffer, scene.lights, {}, &behind).diffuse)
+    EXPECT_EQ(radiance.x, 0.0f);
 }
 
 // A map that holds the ceiling itself: biases keep it lit.
