@@ -58,40 +58,57 @@ void unshare_vertices(aiMesh& mesh) {
   mesh.mNumVertices = static_cast<unsigned>(source.size());
 }
 
-void check_indices(const aiMesh& mesh, const std::string& where) {
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-    for (unsigned i = 0; i < mesh.mFaces[f].mNumIndices; ++i)
-      if (mesh.mFaces[f].mIndices[i] >= mesh.mNumVertices) {
-        throw Error(ErrorCode::mesh_unreadable, where + ": face " + std::to_string(f) + " uses vertex " +
-                                                    std::to_string(mesh.mFaces[f].mIndices[i]) + " of " +
-                                                    std::to_string(mesh.mNumVertices));
-      }
+// Makes sure of what Assimp's post-processing takes for granted, and aborts or runs astray without: faces
+// have corners, corners are vertices, and the mesh says which kinds of faces it has.
+void check_faces(aiMesh& mesh, const std::string& where) {
+  aiFace* const end = mesh.mFaces + mesh.mNumFaces;
+  aiFace* const kept =
+      std::remove_if(mesh.mFaces, end, [](const aiFace& face) { return face.mNumIndices == 0; });
+  mesh.mNumFaces = static_cast<unsigned>(kept - mesh.mFaces);
+  mesh.mPrimitiveTypes = 0;
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    const aiFace& face = mesh.mFaces[f];
+    mesh.mPrimitiveTypes |= AI_PRIMITIVE_TYPE_FOR_N_INDICES(face.mNumIndices);
+    for (unsigned i = 0; i < face.mNumIndices; ++i) {
+      if (face.mIndices[i] < mesh.mNumVertices) continue;
+      throw Error(ErrorCode::mesh_unreadable, where + ": face " + std::to_string(f) + " uses vertex " +
+                                                  std::to_string(face.mIndices[i]) + " of " +
+                                                  std::to_string(mesh.mNumVertices));
+    }
+  }
+  if (mesh.mNumFaces == 0) invalid(where, "the mesh \"" + valid_text(mesh.mName.C_Str()) + "\" has no faces");
 }
 
 bool has_triangles(const aiMesh& mesh) {
   return mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE;
 }
 
-// Normals where there are none, and tangents where a normal map asks for them.
+void post_process(Assimp::Importer& importer, unsigned steps, const std::string& where) {
+  if (steps != 0 && !importer.ApplyPostProcessing(steps)) {
+    throw Error(ErrorCode::mesh_unreadable, where + ": " + importer.GetErrorString());
+  }
+}
+
+// Triangles; normals where there are none; tangents where a normal map asks for them.
 void complete_meshes(Assimp::Importer& importer, MeshFormat format, bool all_tangents,
                      const std::string& where) {
   auto& scene = const_cast<aiScene&>(*importer.GetScene());  // ours: the importer keeps it for this pass
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) check_faces(*scene.mMeshes[i], where);
+  post_process(importer, aiProcess_Triangulate | aiProcess_SortByPType, where);
   unsigned steps = 0;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     aiMesh& mesh = *scene.mMeshes[i];
-    check_indices(mesh, where);
     if (!has_triangles(mesh)) continue;
     const bool normal_map = scene.mMaterials[mesh.mMaterialIndex]->GetTextureCount(aiTextureType_NORMALS) > 0;
     const bool wants_tangents =
         (all_tangents || normal_map) && mesh.HasTextureCoords(0) && !mesh.HasTangentsAndBitangents();
-    if (!mesh.HasNormals())
+    if (!mesh.HasNormals()) {
       steps |= format == MeshFormat::gltf ? aiProcess_GenNormals : aiProcess_GenSmoothNormals;
+    }
     if (wants_tangents) steps |= aiProcess_CalcTangentSpace;
     if (!mesh.HasNormals() || wants_tangents) unshare_vertices(mesh);
   }
-  if (steps != 0 && !importer.ApplyPostProcessing(steps)) {
-    throw Error(ErrorCode::mesh_unreadable, where + ": " + importer.GetErrorString());
-  }
+  post_process(importer, steps, where);
 }
 
 // --- Ours
@@ -244,13 +261,9 @@ class NodeReader {
   MeshFile& out_;
 };
 
-const aiScene& read_scene(Assimp::Importer& importer, const fs::path& path, MeshFormat format) {
+const aiScene& read_scene(Assimp::Importer& importer, const fs::path& path) {
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
-  unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType;
-  // Catches bad indices before they are used. Of glTF it would refuse sound files, for lights that it reads
-  // wrongly; there read_gltf() has looked already.
-  if (format != MeshFormat::gltf) steps |= aiProcess_ValidateDataStructure;
-  const aiScene* scene = importer.ReadFile(path.string(), steps);
+  const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (!scene) throw Error(ErrorCode::mesh_unreadable, path.string() + ": " + importer.GetErrorString());
   if (!scene->mRootNode) throw Error(ErrorCode::mesh_invalid, path.string() + ": the file is empty");
   return *scene;
@@ -300,7 +313,7 @@ MeshFile load_mesh_file(const fs::path& path, bool all_tangents, TexturePool& te
   const GltfDocument document = format == MeshFormat::gltf ? read_gltf(path) : GltfDocument{};
   if (format == MeshFormat::ply) check_ply_file(path);
   Assimp::Importer importer;
-  const aiScene& scene = read_scene(importer, path, format);
+  const aiScene& scene = read_scene(importer, path);
   complete_meshes(importer, format, all_tangents, path.string());
 
   MeshFile out;
