@@ -24,7 +24,7 @@ CASES = {
     "cornell-glossy-vpl": (["cornell-glossy"], ["--method", "vpl"]),
     "caustic-ring-vsgl": (["caustic-ring"], ["--method", "vsgl"]),
     "thin-walls-vsgl": (["thin-walls"], ["--method", "vsgl"]),
-    "atrium-vsgl": (["atrium", "--triangles", "4000"], ["--method", "vsgl"]),
+    "atrium-vsgl": (["atrium", "--triangles", "6000"], ["--method", "vsgl"]),
 }
 THRESHOLDS = ["--threshold", "1e-3", "--fail-percent", "0.5", "--hard-limit", "0.2"]
 
