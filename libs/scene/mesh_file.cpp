@@ -28,8 +28,7 @@ constexpr float crease_deg = 60;  // edges sharper than this stay sharp where OB
   throw Error(ErrorCode::mesh_invalid, where + ": " + what);
 }
 
-// --- Assimp's mesh, before its post-processing
-// -------------------------------------------------------------------------------------
+// Assimp's mesh, before its post-processing.
 
 template <typename T>
 void scatter(T*& values, const std::vector<unsigned>& source) {
@@ -111,8 +110,7 @@ void complete_meshes(Assimp::Importer& importer, MeshFormat format, bool all_tan
   post_process(importer, steps, where);
 }
 
-// --- Ours
-// -------------------------------------------------------------------------------------------------------------------------
+// Our mesh.
 
 Vec3 vec3(const aiVector3D& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};

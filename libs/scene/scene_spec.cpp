@@ -33,8 +33,7 @@ void read_if(const JsonValue& object, const std::string& key, double minimum, do
   if (const auto value = object.find(key)) out = value->number(minimum, maximum);
 }
 
-// --- Meshes
-// -----------------------------------------------------------------------------------------------------------------------
+// Meshes
 
 Mat4 read_matrix(const JsonValue& value) {
   const auto numbers = value.numbers<16>();
@@ -96,8 +95,7 @@ MeshSpec read_mesh(const JsonValue& object, const fs::path& folder) {
   return mesh;
 }
 
-// --- Materials
-// --------------------------------------------------------------------------------------------------------------------
+// Materials
 
 std::optional<TextureOverride> read_texture_override(const JsonValue& object, const std::string& key,
                                                      const fs::path& folder) {
@@ -162,8 +160,7 @@ MaterialOverride read_material(const std::string& name, const JsonValue& object,
   return out;
 }
 
-// --- Lights and camera
-// -------------------------------------------------------------------------------------------------------------
+// Lights and camera
 
 // Any up that is not along `forward`, preferably +y.
 Vec3 default_up(Vec3 forward) {

@@ -17,8 +17,7 @@ bool view_frame(const Mat4& transform, Vec3& right, Vec3& up, Vec3& forward) {
   return make_frame(transform.direction({0, 0, -1}), transform.direction({0, 1, 0}), right, up, forward);
 }
 
-// --- Camera
-// -----------------------------------------------------------------------------------------------------
+// Camera
 
 [[noreturn]] void bad_camera(const fs::path& json_path, const std::string& what) {
   throw Error(ErrorCode::bad_camera, json_path.string() + ": " + what);
@@ -73,8 +72,7 @@ Camera gltf_camera(const SceneSpec& spec, const std::vector<PlacedNode>& nodes, 
              "the scene has no camera; give position, target and vertical_fov_deg under \"camera\"");
 }
 
-// --- Lights
-// -----------------------------------------------------------------------------------------------------
+// Lights
 
 LightSource gltf_light(const PlacedNode& placed, double lumens_per_watt, const fs::path& json_path) {
   const GltfLight& source = placed.file->lights[placed.node->light];

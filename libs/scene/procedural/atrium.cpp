@@ -14,9 +14,10 @@ namespace {
 // The colonnade's centre line is a rectangle of bays_x x bays_z squares. Lengths in metres.
 constexpr int bays_x = 5, bays_z = 4;
 constexpr double bay = 2.4, half_x = bays_x * bay / 2, half_z = bays_z * bay / 2;
-constexpr double gallery = 2.6;  // from the colonnade to the outer wall
-constexpr double thickness = 0.5, spring = 2.9,
-                 top = 4.6;  // of the arcade: depth, where the arches begin, height
+constexpr double gallery = 2.6;            // from the colonnade to the outer wall
+constexpr double thickness = 0.5;          // of the arcade
+constexpr double spring = 2.9, top = 4.6;  // heights at which the arches begin and the arcade ends
+constexpr double tile = bay;               // size of the textures' pictures
 constexpr double arch_radius = bay / 2 - thickness / 2;
 constexpr double outer_x = half_x + gallery, outer_z = half_z + gallery;
 
@@ -66,9 +67,10 @@ ModelMesh column(int material, const Detail& detail) {
   return shape.take();
 }
 
-// The wall above one bay, along x and centred, with its arch cut out; +z faces the court.
+// The wall above one bay, along x and centred, with its arch cut out; +z faces the court. The roof covers its
+// top.
 ModelMesh arch(int material, const Detail& detail) {
-  Shapes shape("arch", material, true);
+  Shapes shape("arch", material, tile);
   const double depth = thickness / 2;
   // The rim of the opening at s in [0, 1] from right to left, and the point of the wall's outline that it is
   // joined to.
@@ -95,12 +97,12 @@ ModelMesh arch(int material, const Detail& detail) {
     shape.quad(d + front, c + front, b + front, a + front);
     shape.quad(a - front, b - front, c - front, d - front);
   }
-  shape.surface(detail.around, 1, [&](double s, double t) {  // the underside of the arch
+  const auto underside = [&](double s, double t) {
     const Vec3 position = rim(s);
     return Shapes::Point{position + Vec3{0, 0, depth * (1 - 2 * t)},
                          Vec3{0, spring, 0} - Vec3{position.x, position.y, 0}};
-  });
-  shape.quad({-bay / 2, top, depth}, {bay / 2, top, depth}, {bay / 2, top, -depth}, {-bay / 2, top, -depth});
+  };
+  shape.surface(detail.around, 1, underside, std::numbers::pi * arch_radius, thickness);
   return shape.take();
 }
 
@@ -128,7 +130,7 @@ void add_colonnade(Model& model, int stone, int wall, const Detail& detail) {
   side(2, bays_x, half_x, half_z);
   side(3, bays_z, half_z, half_x);
   Shapes pier("pier", stone);
-  pier.box({-0.3, 0, -0.3}, {0.3, top, 0.3}, "xXYzZ");
+  pier.box({-0.3, 0, -0.3}, {0.3, top + 0.1, 0.3}, "xXYzZ");  // through the roof, not flush with it
   const int pier_mesh = static_cast<int>(model.meshes.size());
   model.meshes.push_back(pier.take());
   for (const double x : {-half_x, half_x})
@@ -138,13 +140,13 @@ void add_colonnade(Model& model, int stone, int wall, const Detail& detail) {
 // Floor, outer walls seen from inside, and the gallery's ceiling as four strips.
 void add_shell(Model& model, int floor, int wall, int ceiling, const Detail& detail) {
   const int nx = (bays_x + 2) * detail.tiles, nz = (bays_z + 2) * detail.tiles, ny = 2 * detail.tiles;
-  Shapes ground("floor", floor, true);
-  ground.grid({-outer_x, 0, outer_z}, {2 * outer_x, 0, 0}, {0, 0, -2 * outer_z}, nx, nz, 2);
-  Shapes walls("walls", wall, true);
-  walls.grid({-outer_x, 0, -outer_z}, {2 * outer_x, 0, 0}, {0, top, 0}, nx, ny, 2);
-  walls.grid({outer_x, 0, outer_z}, {-2 * outer_x, 0, 0}, {0, top, 0}, nx, ny, 2);
-  walls.grid({-outer_x, 0, outer_z}, {0, 0, -2 * outer_z}, {0, top, 0}, nz, ny, 2);
-  walls.grid({outer_x, 0, -outer_z}, {0, 0, 2 * outer_z}, {0, top, 0}, nz, ny, 2);
+  Shapes ground("floor", floor, tile);
+  ground.grid({-outer_x, 0, outer_z}, {2 * outer_x, 0, 0}, {0, 0, -2 * outer_z}, nx, nz);
+  Shapes walls("walls", wall, tile);
+  walls.grid({-outer_x, 0, -outer_z}, {2 * outer_x, 0, 0}, {0, top, 0}, nx, ny);
+  walls.grid({outer_x, 0, outer_z}, {-2 * outer_x, 0, 0}, {0, top, 0}, nx, ny);
+  walls.grid({-outer_x, 0, outer_z}, {0, 0, -2 * outer_z}, {0, top, 0}, nz, ny);
+  walls.grid({outer_x, 0, -outer_z}, {0, 0, 2 * outer_z}, {0, top, 0}, nz, ny);
   Shapes roof("gallery ceiling", ceiling);
   const double depth = gallery + thickness / 2;
   roof.grid({-outer_x, top, -outer_z}, {2 * outer_x, 0, 0}, {0, 0, depth}, nx, detail.tiles);
@@ -192,16 +194,13 @@ std::size_t count(const Detail& detail) {
 // The finest detail within the budget: first the columns and arches, with three quarters of it, then floor
 // and walls with the rest.
 Detail fit(std::size_t budget) {
-  Detail detail;
   const auto refined = [](int step) { return Detail{8 + 4 * step, 11 * (1 + step / 2), 1}; };
   int step = 0;
   while (count(refined(step + 1)) * 4 <= budget * 3) ++step;
-  detail = refined(step);
-  while (true) {
+  for (Detail detail = refined(step);; ++detail.tiles) {
     Detail finer = detail;
     ++finer.tiles;
     if (count(finer) > budget) return detail;
-    detail = finer;
   }
 }
 

@@ -90,8 +90,7 @@ Json material_json(const GenerateOptions& options, const ModelMaterial& material
   return out;
 }
 
-// --- A mesh in the box
-// ------------------------------------------------------------------------------------------------------------
+// A mesh in the box
 
 // Makes the mesh stand on the box's floor: its bottom centre there, turned towards the camera, at most 0.33 m
 // in any direction.

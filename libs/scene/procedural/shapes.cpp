@@ -1,5 +1,7 @@
 #include "scene/procedural/shapes.h"
 
+#include <cmath>
+
 namespace vsgl::scene {
 namespace {
 
@@ -12,7 +14,7 @@ std::array<float, 3> single(Vec3 v) {
 std::uint32_t Shapes::vertex(Vec3 position, Vec3 normal, double u, double v) {
   mesh_.positions.push_back(single(position));
   mesh_.normals.push_back(single(normalise(normal)));
-  if (textured_) mesh_.uvs.push_back({static_cast<float>(u), static_cast<float>(v)});
+  if (tile_ > 0) mesh_.uvs.push_back({static_cast<float>(u / tile_), static_cast<float>(-v / tile_)});
   return static_cast<std::uint32_t>(mesh_.positions.size()) - 1;
 }
 
@@ -30,25 +32,23 @@ void Shapes::cells(std::uint32_t first, int columns, int rows) {
 }
 
 void Shapes::quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-  const Vec3 normal = cross(c - a, d - b);
-  const double width = length(b - a), height = length(d - a);
-  const std::uint32_t first = vertex(a, normal, 0, 0);
-  vertex(b, normal, width, 0);
-  vertex(c, normal, width, height);
-  vertex(d, normal, 0, height);
+  const Vec3 normal = normalise(cross(c - a, d - b));
+  const bool level = std::abs(normal.y) > 0.99;
+  const Vec3 right = level ? Vec3{1, 0, 0} : normalise(cross({0, 1, 0}, normal));
+  const Vec3 up = cross(normal, right);
+  const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+  for (const Vec3 corner : {a, b, c, d}) vertex(corner, normal, dot(corner, right), dot(corner, up));
   for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh_.indices.push_back(first + corner);
 }
 
-void Shapes::grid(Vec3 origin, Vec3 u, Vec3 v, int columns, int rows, double tile) {
+void Shapes::grid(Vec3 origin, Vec3 u, Vec3 v, int columns, int rows) {
   const Vec3 normal = cross(u, v);
-  const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
-  for (int row = 0; row <= rows; ++row)
-    for (int column = 0; column <= columns; ++column) {
-      const double s = static_cast<double>(column) / columns, t = static_cast<double>(row) / rows;
-      // The texture's rows count downwards, against v.
-      vertex(origin + u * s + v * t, normal, s * length(u) / tile, -t * length(v) / tile);
-    }
-  cells(first, columns, rows);
+  surface(
+      columns, rows,
+      [&](double s, double t) {
+        return Point{origin + u * s + v * t, normal};
+      },
+      length(u), length(v));
 }
 
 void Shapes::box(Vec3 low, Vec3 high, const std::string& faces) {
@@ -77,13 +77,14 @@ void Shapes::box(Vec3 low, Vec3 high, const std::string& faces) {
     }
 }
 
-void Shapes::surface(int columns, int rows, const std::function<Point(double s, double t)>& at) {
+void Shapes::surface(int columns, int rows, const std::function<Point(double s, double t)>& at, double size_s,
+                     double size_t) {
   const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
   for (int row = 0; row <= rows; ++row)
     for (int column = 0; column <= columns; ++column) {
       const double s = static_cast<double>(column) / columns, t = static_cast<double>(row) / rows;
       const Point point = at(s, t);
-      vertex(point.position, point.normal, s, -t);
+      vertex(point.position, point.normal, s * size_s, t * size_t);
     }
   cells(first, columns, rows);
 }
