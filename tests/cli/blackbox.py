@@ -6,7 +6,7 @@ import re
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cmake"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "configs" / "documentation"))
 
 TIMEOUT_S = 120
 ERROR_LINE = re.compile(r"^(?P<tool>[a-z-]+): error E(?P<number>\d{4}): (?P<message>.+)$", re.MULTILINE)

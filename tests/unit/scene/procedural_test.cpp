@@ -256,7 +256,7 @@ TEST_F(Procedural, AtriumTextures) {
 TEST_F(Procedural, AtriumWithGlmark2Textures) {
   GenerateOptions options = triangles(5000);
   options.texture_dir = "/usr/share/glmark2/textures";
-  if (!std::filesystem::exists(options.texture_dir)) GTEST_SKIP() << "glmark2-data is not installed";
+  ASSERT_TRUE(std::filesystem::exists(options.texture_dir)) << "install glmark2-data (make setup)";
   const Scene scene = load("atrium", options);
   const auto& floor = scene.materials[named(scene, "floor").material];
   EXPECT_NE(scene.textures[floor.base_color_texture].name.find("grasslight-512.jpg"), std::string::npos);

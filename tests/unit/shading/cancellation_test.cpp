@@ -45,7 +45,7 @@ TEST(Cancellation, BlendsByTheRatioOfSharpnesses) {
       const auto oracle = [&](std::size_t i) {
         return test::vsgl_sum(gbuffer, i, lights, params.method == "vsgl-2014", {.cbr = params.cbr});
       };
-      test::expect_near_oracle(image, oracle, ndf == interop::NDF_NONE ? 1e-4 : 5e-3);
+      test::expect_near_oracle(image, oracle, 2e-4);
       int partly = 0;
       for (std::size_t i = 0; i < image.cancellation.size(); ++i) {
         const test::Radiance expected = oracle(i);
@@ -64,7 +64,7 @@ TEST(Cancellation, IsOffAtThresholdZero) {
   const Indirect image = test::shade_box(gbuffer, lights, {.cbr = 0});
   EXPECT_TRUE(image.cancellation.empty());
   test::expect_near_oracle(
-      image, [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, false); }, 5e-3);
+      image, [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, false); }, 2e-4);
 }
 
 // A cluster whose representative point has no specular lobe keeps its spherical Gaussian.
