@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <string_view>
 #include <unordered_map>
 
@@ -147,13 +147,12 @@ std::array<float, 4> import_tangent(const aiMesh& mesh, unsigned i, Vec3 normal)
   return {x, y, z, handedness};
 }
 
-struct VertexHash {
-  std::size_t operator()(const Vertex& vertex) const {
-    return std::hash<std::string_view>()({reinterpret_cast<const char*>(&vertex), sizeof vertex});
+// A vertex as its bits: equal where every bit is.
+using VertexBits = std::array<std::uint32_t, sizeof(Vertex) / sizeof(std::uint32_t)>;
+struct HashBits {
+  std::size_t operator()(const VertexBits& bits) const {
+    return std::hash<std::string_view>()({reinterpret_cast<const char*>(bits.data()), sizeof bits});
   }
-};
-struct VertexEqual {
-  bool operator()(const Vertex& a, const Vertex& b) const { return std::memcmp(&a, &b, sizeof a) == 0; }
 };
 
 std::vector<Vertex> import_vertices(const aiMesh& mesh, const std::string& where,
@@ -191,13 +190,14 @@ Mesh import_mesh(const aiMesh& mesh, const std::string& file, std::vector<std::s
   out.name = valid_text(mesh.mName.C_Str());
   out.material = static_cast<int>(mesh.mMaterialIndex);
   const std::vector<Vertex> vertices = import_vertices(mesh, file + ": mesh \"" + out.name + "\"", warnings);
-  std::unordered_map<Vertex, std::uint32_t, VertexHash, VertexEqual> known;
+  std::unordered_map<VertexBits, std::uint32_t, HashBits> known;
   known.reserve(vertices.size());
   out.indices.reserve(std::size_t{3} * mesh.mNumFaces);
   for (unsigned f = 0; f < mesh.mNumFaces; ++f)
     for (int i = 0; i < 3; ++i) {
       const Vertex& vertex = vertices[mesh.mFaces[f].mIndices[i]];
-      const auto [entry, fresh] = known.try_emplace(vertex, static_cast<std::uint32_t>(out.vertices.size()));
+      const auto [entry, fresh] = known.try_emplace(std::bit_cast<VertexBits>(vertex),
+                                                    static_cast<std::uint32_t>(out.vertices.size()));
       if (fresh) out.vertices.push_back(vertex);
       out.indices.push_back(entry->second);
     }

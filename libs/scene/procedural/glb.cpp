@@ -32,7 +32,7 @@ void pad(std::string& bytes, char with) {
 Json matrix_of(const Mat4& m) {
   Json out = Json::array();
   for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row) out.push_back(m.m[row][column]);
+    for (const auto& row : m.m) out.push_back(row[column]);
   return out;
 }
 
