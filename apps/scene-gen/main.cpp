@@ -19,7 +19,9 @@ struct Arguments {
 std::string list_of_scenes() {
   std::string text;
   for (const auto& [name, summary] : vsgl::scene::generators()) {
-    text += (text.empty() ? "" : "\n") + name + std::string(16 - name.size(), ' ') + summary;
+    if (!text.empty()) text += '\n';
+    text += name + std::string(16 - name.size(), ' ');
+    text += summary;
   }
   return text;
 }
