@@ -8,7 +8,7 @@
 #define SOURCE Importon
 #define TEXEL Texel
 #include "pdf/importance.glsl"
-#include "shading/fused.glsl"
+#include "kernels/fused.glsl"
 
 struct Texel {
   vec3 position, normal, diffuse, specular;

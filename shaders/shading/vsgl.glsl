@@ -5,7 +5,7 @@
 #define VSGL_SHADING_VSGL_GLSL
 
 #include "shading/emission.glsl"
-#include "shading/fused.glsl"
+#include "kernels/fused.glsl"
 #include "shading/shadow.glsl"
 
 // The specular lobe's answer to the normalised SG, 1/sr.

@@ -1,7 +1,7 @@
 // Faster forms of shader-library functions for the inner loop: without exponentials and divisions where a polynomial does, and with
 // intermediate results shared. Each is tested against the library's form.
-#ifndef VSGL_SHADING_FUSED_GLSL
-#define VSGL_SHADING_FUSED_GLSL
+#ifndef VSGL_KERNELS_FUSED_GLSL
+#define VSGL_KERNELS_FUSED_GLSL
 
 #include "lib/specular_lobe.glsl"
 #include "lib/vsgl.glsl"
