@@ -110,7 +110,7 @@ SpecularHorizon fast_horizon(SpecularReceiver r, vec3 light, float sharpness) {
 // specular_vmf_ggx() of lib/specular_lobe.glsl over common denominators. `light`: local; `slope_view`: ggx_slope_cosine of the view.
 float fast_specular_ggx(SpecularReceiver r, vec3 light, Incoming incoming, float slope_view) {
   SpecularHorizon horizon = fast_horizon(r, light, incoming.sharpness);
-  float spread = (1.0 - r.alpha2 + 1e-20) * min(incoming.inverse_sharpness, 1e4);
+  float spread = (1.0 - r.alpha2) * min(incoming.inverse_sharpness, 1e4);
   float c2 = r.cos_view * r.cos_view;
   float top_par = 2.0 + spread;  // 1 / m_par = top_par / bottom_par
   float bottom_par = 2.0 * r.alpha2 + spread;

@@ -1,4 +1,4 @@
-// The mathematics of shaders/shading/fused.glsl, vsgl.glsl and emission.glsl in plain C++ for the compiler's
+// The mathematics of shaders/kernels/fused.glsl, vsgl.glsl and emission.glsl in plain C++ for the compiler's
 // vectoriser, with the exponentials of the C library's vector mathematics. Built once per vector width, as
 // VSGL_NATIVE_WIDTH.
 
