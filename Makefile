@@ -15,7 +15,7 @@ JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 SOURCES = $(shell git ls-files 'apps/*.cpp' 'libs/*.cpp' 'libs/*.h' 'tests/*.cpp' 'tests/*.h' 'shaders/interop/*.h')
 
-.PHONY: help setup setup-lint build demo test bench asan tidy format format-check install golden-update clean
+.PHONY: help setup setup-lint configure build demo test bench asan tidy format format-check install golden-update clean
 
 help: ## show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -26,11 +26,14 @@ setup: ## install the Debian packages that are missing
 setup-lint:
 	@configs/workflow/setup.sh $(LINT_PACKAGES)
 
-build: setup ## configure and build everything
+configure: setup
 	@cmake --preset $(PRESET) -Wno-dev $(if $(wildcard $(BUILD)/CMakeCache.txt),> /dev/null)
+
+build: configure ## build everything: tools, tests, benchmark, manual
 	@cmake --build --preset $(PRESET) -j $(JOBS)
 
-demo: build ## run the chain on the demo scenes into out/demo, print the stages
+demo: configure ## build the tools, run the chain on the demo scenes into out/demo, print the stages
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target tools
 	@python3 configs/workflow/demo.py --bin $(BUILD)/bin --output out/demo
 
 test: build ## build and run every test
