@@ -1,5 +1,6 @@
 // ismap scene.json --lights lights.exr -o ism.exr: a shadow map for each virtual light, all in one atlas.
 
+#include "base/methods.h"
 #include "base/tool.h"
 #include "stages/visibility/visibility.h"
 
@@ -11,23 +12,12 @@ struct Arguments {
   bool no_pull_push = false;
 };
 
-std::string list_of_methods() {
-  std::string text;
-  for (const auto& method : vsgl::visibility_methods())
-    text +=
-        (text.empty() ? "" : "\n") + method.name + std::string(8 - method.name.size(), ' ') + method.summary;
-  return text;
-}
-
 void declare(vsgl::Tool& tool, Arguments& a) {
   CLI::App& app = tool.app();
-  std::vector<std::string> methods;
-  for (const auto& method : vsgl::visibility_methods()) methods.push_back(method.name);
   tool.input("scene", a.scene, "scene JSON")->required();
   tool.input("--lights", a.lights, "virtual lights that get shadow maps")->required();
   tool.output("-o,--output", a.output, "atlas of shadow maps to write")->required();
-  app.add_option("--method", a.params.method, "how to build the maps; see --list-methods")
-      ->check(CLI::IsMember(methods));
+  vsgl::add_methods(app, vsgl::visibility_methods(), a.params.method, "how to build the maps");
   app.add_option("--points", a.params.points_per_light, "surface points a light")
       ->check(CLI::Range(1, 1 << 20));
   app.add_option("--tile", a.params.tile, "texels a side of a map, a power of two")
@@ -36,9 +26,6 @@ void declare(vsgl::Tool& tool, Arguments& a) {
                  "radius of a splatted disk, in radii of the disk that a point stands for")
       ->check(CLI::Range(0.0, 4.0));
   app.add_flag("--no-pull-push", a.no_pull_push, "leave the holes between splats open");
-  app.add_flag_callback(
-      "--list-methods", [] { throw CLI::CallForVersion(list_of_methods(), 0); },
-      "print the methods and exit");
 }
 
 vsgl::scene::Scene read_scene(vsgl::Tool& tool, const std::filesystem::path& path, vsgl::Report& report) {

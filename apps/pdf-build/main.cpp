@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/methods.h"
 #include "base/tool.h"
 #include "interop/sampling.h"
 #include "stages/pdf/pdf.h"
@@ -16,24 +17,13 @@ struct Arguments {
   vsgl::PdfParams params;
 };
 
-std::string list_of_methods() {
-  std::string text;
-  for (const auto& method : vsgl::pdf_methods())
-    text +=
-        (text.empty() ? "" : "\n") + method.name + std::string(11 - method.name.size(), ' ') + method.summary;
-  return text;
-}
-
 void declare(vsgl::Tool& tool, Arguments& a) {
   CLI::App& app = tool.app();
   const CLI::Range counts(1, static_cast<int>(vsgl::interop::MAX_POINTS));
-  std::vector<std::string> methods;
-  for (const auto& method : vsgl::pdf_methods()) methods.push_back(method.name);
   tool.input("--rsm", a.rsm, "reflective shadow map")->required();
   tool.input("--gbuffer", a.gbuffer, "image that the light is to reach; the brsm methods need it");
   tool.output("-o,--output", a.output, "density to write")->required();
-  app.add_option("--method", a.params.method, "what the density follows; see --list-methods")
-      ->check(CLI::IsMember(methods));
+  vsgl::add_methods(app, vsgl::pdf_methods(), a.params.method, "what the density follows");
   app.add_option("--gbuffer-lights", a.params.gbuffer_lights, "brsm-vsgl: number of lights on the G-buffer")
       ->check(counts);
   app.add_option("--view-samples", a.params.view_samples,
@@ -41,9 +31,6 @@ void declare(vsgl::Tool& tool, Arguments& a) {
       ->check(counts);
   app.add_option("--defensive", a.params.defensive, "brsm: share of the flux density that is mixed in")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_flag_callback(
-      "--list-methods", [] { throw CLI::CallForVersion(list_of_methods(), 0); },
-      "print the methods and exit");
 }
 
 vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {

@@ -1,42 +1,15 @@
 // rsm-bake scene.json --gbuffer gbuffer.exr --rsm rsm.exr: what the camera sees, and what the lights see.
 
-#include <charconv>
-#include <optional>
-
+#include "base/image_size.h"
 #include "base/tool.h"
 #include "stages/rsm/rsm.h"
 
 namespace {
 
-struct Size {
-  int width = 0, height = 0;
-};
-
 struct Arguments {
   std::filesystem::path scene, gbuffer, rsm;
   std::string rsm_size = "512", resolution, normals = "consistent";
 };
-
-// "N" or "WxH", each side 1..limit.
-std::optional<Size> parse_size(const std::string& text, int limit) {
-  const auto side = [&](std::string_view digits) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const bool whole = error == std::errc() && end == digits.data() + digits.size();
-    return whole && value >= 1 && value <= limit ? value : 0;
-  };
-  const std::size_t x = text.find('x');
-  const Size size = x == std::string::npos ? Size{side(text), side(text)}
-                                           : Size{side(text.substr(0, x)), side(text.substr(x + 1))};
-  if (size.width == 0 || size.height == 0) return std::nullopt;
-  return size;
-}
-
-std::string check_size(const std::string& text, int limit) {
-  return parse_size(text, limit)
-             ? ""
-             : "\"" + text + "\" is no size: give N or WIDTHxHEIGHT, 1 to " + std::to_string(limit);
-}
 
 constexpr int kMaxRsm = 4096, kMaxResolution = 16384;
 
@@ -45,12 +18,10 @@ void declare(vsgl::Tool& tool, Arguments& a) {
   tool.input("scene", a.scene, "scene JSON")->required();
   tool.output("--gbuffer", a.gbuffer, "G-buffer of the camera to write");
   tool.output("--rsm", a.rsm, "reflective shadow map of the lights to write");
-  app.add_option("--rsm-size", a.rsm_size, "texels of each RSM layer, N or WIDTHxHEIGHT, 1 to 4096")
-      ->check([](const std::string& text) { return check_size(text, kMaxRsm); });
+  app.add_option("--rsm-size", a.rsm_size, "texels of each RSM layer, N or WIDTHxHEIGHT, 1 to 4096");
   app.add_option(
          "--resolution", a.resolution,
-         "pixels of the G-buffer, WIDTHxHEIGHT (default: the scene's); keeps the vertical field of view")
-      ->check([](const std::string& text) { return check_size(text, kMaxResolution); });
+         "pixels of the G-buffer, WIDTHxHEIGHT (default: the scene's); keeps the vertical field of view");
   app.add_option(
          "--rsm-normals", a.normals,
          "what bent normals do to reflected light: consistent with a path tracer, or as in the papers")
@@ -67,7 +38,7 @@ vsgl::scene::Scene read_scene(vsgl::Tool& tool, const std::filesystem::path& pat
 }
 
 vsgl::RsmParams rsm_params(const Arguments& a) {
-  const Size size = parse_size(a.rsm_size, kMaxRsm).value();
+  const vsgl::ImageSize size = vsgl::read_image_size("--rsm-size", a.rsm_size, kMaxRsm);
   return {size.width, size.height,
           a.normals == "paper" ? vsgl::NormalConvention::paper : vsgl::NormalConvention::consistent};
 }
@@ -76,9 +47,10 @@ vsgl::Exit run(vsgl::Tool& tool, const Arguments& a, vsgl::Report& report, vsgl:
   if (a.gbuffer.empty() && a.rsm.empty()) {
     throw vsgl::Error(vsgl::ErrorCode::missing_option, "nothing to do: give --gbuffer, --rsm or both");
   }
+  const vsgl::RsmParams params = rsm_params(a);
   auto scene = read_scene(tool, a.scene, report);
   if (!a.resolution.empty()) {
-    const Size size = parse_size(a.resolution, kMaxResolution).value();
+    const vsgl::ImageSize size = vsgl::read_image_size("--resolution", a.resolution, kMaxResolution);
     scene.camera = vsgl::with_resolution(scene.camera, size.width, size.height);
   }
   vsgl::gpu::Device device({.device = tool.common().device, .threads = tool.common().threads});
@@ -90,7 +62,7 @@ vsgl::Exit run(vsgl::Tool& tool, const Arguments& a, vsgl::Report& report, vsgl:
     vsgl::write(outputs.add(a.gbuffer), gbuffer, tool.provenance());
   }
   if (!a.rsm.empty()) {
-    const vsgl::Rsm rsm = baker.rsm(rsm_params(a));
+    const vsgl::Rsm rsm = baker.rsm(params);
     const vsgl::PhaseTimer timer(report, "write rsm");
     vsgl::write(outputs.add(a.rsm), rsm, tool.provenance());
   }

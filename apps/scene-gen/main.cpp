@@ -1,8 +1,7 @@
 // scene-gen NAME -o FOLDER/NAME.json: writes a test scene as a scene JSON and, beside it, a .glb and
 // textures.
 
-#include <regex>
-
+#include "base/image_size.h"
 #include "base/tool.h"
 #include "scene/procedural.h"
 
@@ -61,29 +60,17 @@ void declare(vsgl::Tool& tool, Arguments& a) {
       "--list-scenes", [] { throw CLI::CallForVersion(list_of_scenes(), 0); }, "print the scenes and exit");
 }
 
-void read_resolution(const std::string& text, vsgl::scene::GenerateOptions& options) {
-  if (text.empty()) return;
-  std::smatch sides;
-  if (!std::regex_match(text, sides, std::regex("([0-9]{1,5})x([0-9]{1,5})"))) {
-    throw vsgl::Error(vsgl::ErrorCode::bad_value, "--resolution " + text + ": must be WxH, as 640x360");
-  }
-  options.width = std::stoi(sides[1]);
-  options.height = std::stoi(sides[2]);
-  for (const int side : {*options.width, *options.height}) {
-    if (side < 1 || side > 16384) {
-      throw vsgl::Error(vsgl::ErrorCode::out_of_range,
-                        "--resolution " + text + ": sides must be from 1 to 16384");
-    }
-  }
-}
-
 vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
   if (a.output.extension() != ".json") {
     throw vsgl::Error(vsgl::ErrorCode::bad_value, "--output " + a.output.string() + ": must end in .json");
   }
   a.options.offset = {a.offset[0], a.offset[1], a.offset[2]};
   a.options.seed = tool.common().seed;
-  read_resolution(a.resolution, a.options);
+  if (!a.resolution.empty()) {
+    const vsgl::ImageSize size = vsgl::read_image_size("--resolution", a.resolution, 16384);
+    a.options.width = size.width;
+    a.options.height = size.height;
+  }
   for (const auto& file : vsgl::scene::referenced_files(a.options)) {
     if (!std::filesystem::is_regular_file(file)) {
       throw vsgl::Error(vsgl::ErrorCode::file_not_found, file.string() + ": the file is missing");

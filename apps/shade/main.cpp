@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/methods.h"
 #include "base/tool.h"
 #include "stages/shading/shading.h"
 
@@ -15,25 +16,14 @@ struct Arguments {
   vsgl::ShadingParams params;
 };
 
-std::string list_of_methods() {
-  std::string text;
-  for (const auto& method : vsgl::shading_methods())
-    text +=
-        (text.empty() ? "" : "\n") + method.name + std::string(11 - method.name.size(), ' ') + method.summary;
-  return text;
-}
-
 void declare(vsgl::Tool& tool, Arguments& a) {
   CLI::App& app = tool.app();
-  std::vector<std::string> methods;
-  for (const auto& method : vsgl::shading_methods()) methods.push_back(method.name);
   tool.input("--gbuffer", a.gbuffer, "pixels to shade")->required();
   tool.input("--lights", a.lights, "virtual lights")->required();
   tool.input("--ism", a.ism, "shadow maps of the lights (default: no shadows)");
   tool.input("--rsm", a.rsm, "reflective shadow map: adds its direct light as a layer");
   tool.output("-o,--output", a.output, "radiance to write")->required();
-  app.add_option("--method", a.params.method, "how lights are evaluated; see --list-methods")
-      ->check(CLI::IsMember(methods));
+  vsgl::add_methods(app, vsgl::shading_methods(), a.params.method, "how lights are evaluated");
   app.add_option("--clamp", a.params.clamp,
                  "vpl: smallest distance, as a fraction of the scene's radius; 0: none")
       ->check(CLI::Range(0.0, 1.0));
@@ -43,9 +33,6 @@ void declare(vsgl::Tool& tool, Arguments& a) {
       ->check(CLI::IsMember({"auto", "asg"}));
   app.add_option("--cbr", a.params.cbr, "consistent bias reduction: threshold of the sharpness ratio; 0: off")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_flag_callback(
-      "--list-methods", [] { throw CLI::CallForVersion(list_of_methods(), 0); },
-      "print the methods and exit");
 }
 
 vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {

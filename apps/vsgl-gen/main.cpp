@@ -1,6 +1,7 @@
 // vsgl-gen --rsm rsm.exr --pdf pdf.exr -o lights.exr [--info lights.json]: virtual lights from a reflective
 // shadow map.
 
+#include "base/methods.h"
 #include "base/tool.h"
 #include "math/sampling.h"
 #include "stages/lights/lights.h"
@@ -15,25 +16,14 @@ struct Arguments {
   vsgl::LightsParams params;
 };
 
-std::string list_of_methods() {
-  std::string text;
-  for (const auto& method : vsgl::lights_methods())
-    text +=
-        (text.empty() ? "" : "\n") + method.name + std::string(10 - method.name.size(), ' ') + method.summary;
-  return text;
-}
-
 void declare(vsgl::Tool& tool, Arguments& a) {
   CLI::App& app = tool.app();
-  std::vector<std::string> methods;
-  for (const auto& method : vsgl::lights_methods()) methods.push_back(method.name);
   tool.input("--rsm", a.rsm, "reflective shadow map to sample")->required();
   tool.input("--pdf", a.pdf, "density of the samples over its texels")->required();
   tool.output("-o,--output", a.output, "lights to write")->required();
   CLI::Option* info = tool.output("--info", a.info, "JSON with statistics of the lights");
   app.add_flag("--dump", a.dump, "list the lights themselves in the JSON")->needs(info);
-  app.add_option("--method", a.params.method, "how lights are made; see --list-methods")
-      ->check(CLI::IsMember(methods));
+  vsgl::add_methods(app, vsgl::lights_methods(), a.params.method, "how lights are made");
   app.add_option("--count", a.params.count, "number of samples")
       ->check(CLI::Range(1, static_cast<int>(vsgl::interop::MAX_POINTS)));
   app.add_option("--kernel-scale", a.params.kernel_scale,
@@ -49,9 +39,6 @@ void declare(vsgl::Tool& tool, Arguments& a) {
   app.add_option("--points", a.params.points,
                  "sample points: lattice of a searched generator, fibonacci, or random")
       ->check(CLI::IsMember(vsgl::point_set_names()));
-  app.add_flag_callback(
-      "--list-methods", [] { throw CLI::CallForVersion(list_of_methods(), 0); },
-      "print the methods and exit");
 }
 
 vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
