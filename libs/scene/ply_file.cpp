@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -33,6 +35,11 @@ struct Element {
   std::uint64_t count = 0;
   std::vector<Property> properties;
 };
+
+// Assimp takes a number in place of a name for the count.
+bool is_name(const std::string& word) {
+  return std::isalpha(static_cast<unsigned char>(word[0])) || word[0] == '_';
+}
 
 class PlyChecker {
  public:
@@ -117,7 +124,8 @@ class PlyChecker {
       words >> type;
     }
     property.type = read_type(type, text);
-    if (!(words >> property.name)) broken("header line \"" + text + "\" is not understood");
+    if (!(words >> property.name) || !is_name(property.name))
+      broken("header line \"" + text + "\" is not understood");
     return property;
   }
 

@@ -113,6 +113,7 @@ TEST_F(MeshFormats, BrokenFiles) {
   const std::string good = header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   expect_bad_ply(good, "end_header", "end`header", "not understood");
   expect_bad_ply(good, "element vertex 3", "elem8nt vertex 3", "not understood");
+  expect_bad_ply(good, "element face", "element 9999999999face", "not understood");
   expect_bad_ply(good, "float x", "flaot x", "unknown type");
   expect_bad_ply(good, "element vertex 3", "element vertex 99999999999", "ends too early");
   expect_bad_ply(good, "3 0 1 2", "3 0 1", "ends too early");
