@@ -81,7 +81,7 @@ class PlyChecker {
         format = true;
       } else if (keyword == "element") {
         Element element;
-        if (!(words >> element.name >> element.count))
+        if (!(words >> element.name >> element.count) || !is_name(element.name))
           broken("header line \"" + text + "\" is not understood");
         elements_.push_back(element);
       } else if (keyword == "property" && !elements_.empty()) {
