@@ -44,7 +44,7 @@ bench: build ## time the shading kernel against native code, and the demo chain 
 
 asan: ## the test run under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory build PRESET=asan
-	@cd build/asan && VSGL_VALIDATION=1 ctest --output-on-failure --no-tests=error -j $(JOBS) -LE perf
+	@cd build/asan && VSGL_VALIDATION=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp ctest --output-on-failure --no-tests=error -j $(JOBS) -LE perf
 
 tidy: setup setup-lint ## clang-tidy over the whole tree
 	@$(MAKE) --no-print-directory build PRESET=tidy

@@ -20,8 +20,8 @@ void declare(vsgl::Tool& tool, Arguments& a) {
   tool.output("--rsm", a.rsm, "reflective shadow map of the lights to write");
   app.add_option("--rsm-size", a.rsm_size, "texels of each RSM layer, N or WIDTHxHEIGHT, 1 to 4096");
   app.add_option(
-         "--resolution", a.resolution,
-         "pixels of the G-buffer, WIDTHxHEIGHT (default: the scene's); keeps the vertical field of view");
+      "--resolution", a.resolution,
+      "pixels of the G-buffer, WIDTHxHEIGHT (default: the scene's); keeps the vertical field of view");
   app.add_option(
          "--rsm-normals", a.normals,
          "what bent normals do to reflected light: consistent with a path tracer, or as in the papers")

@@ -15,7 +15,8 @@ ImageSize read_image_size(const std::string& flag, const std::string& text, int 
     if ((error != std::errc() && !too_large) || end != digits.data() + digits.size())
       throw Error(ErrorCode::bad_value, flag + " " + text + ": is no size; give WIDTHxHEIGHT, as 640x360");
     if (too_large || value < 1 || value > limit)
-      throw Error(ErrorCode::out_of_range, flag + " " + text + ": sides must be from 1 to " + std::to_string(limit));
+      throw Error(ErrorCode::out_of_range,
+                  flag + " " + text + ": sides must be from 1 to " + std::to_string(limit));
     return value;
   };
   const std::string_view view = text;

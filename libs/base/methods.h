@@ -7,10 +7,11 @@
 
 namespace vsgl {
 
-// Declares --method, one of a registry's rows (each with `name` and `summary`), and --list-methods, which prints them one a line.
-// `registry` must outlive the app.
+// Declares --method, one of a registry's rows (each with `name` and `summary`), and --list-methods, which
+// prints them one a line. `registry` must outlive the app.
 template <class Method>
-void add_methods(CLI::App& app, const std::vector<Method>& registry, std::string& method, const std::string& help) {
+void add_methods(CLI::App& app, const std::vector<Method>& registry, std::string& method,
+                 const std::string& help) {
   std::vector<std::string> names;
   for (const Method& row : registry) names.push_back(row.name);
   app.add_option("--method", method, help + "; see --list-methods")->check(CLI::IsMember(names));
@@ -19,7 +20,8 @@ void add_methods(CLI::App& app, const std::vector<Method>& registry, std::string
     for (const Method& row : registry) widest = std::max(widest, row.name.size());
     std::string text;
     for (const Method& row : registry)
-      text += (text.empty() ? "" : "\n") + row.name + std::string(widest + 2 - row.name.size(), ' ') + row.summary;
+      text += (text.empty() ? "" : "\n") + row.name + std::string(widest + 2 - row.name.size(), ' ') +
+              row.summary;
     throw CLI::CallForVersion(text, 0);
   };
   app.add_flag_callback("--list-methods", print, "print the methods and exit");

@@ -1,5 +1,7 @@
 #include "gpu/device.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -24,6 +26,15 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_validation_message(VkDebugUtilsMessageSeverity
   std::fprintf(stderr, "validation: %s\n", data->pMessage);
   ++validation_messages;
   return VK_FALSE;
+}
+
+// Under AddressSanitizer: keeps lavapipe and the validation layer loaded after the instance, so that the leak
+// checker can name, and tests/lsan.supp suppress, what they never free.
+void pin_drivers_for_leak_checker() {
+#ifdef __SANITIZE_ADDRESS__
+  for (const char* library : {"libvulkan_lvp.so", "libVkLayer_khronos_validation.so"})
+    dlopen(library, RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+#endif
 }
 
 bool validation_wanted() {
@@ -162,6 +173,7 @@ Device::Device(const DeviceOptions& options) {
   if (options.compute_only) set_lavapipe_wide(environment);
   try {
     create_instance(validation_wanted());
+    pin_drivers_for_leak_checker();
     choose_physical(options.device);
     describe();
     create_device();

@@ -98,7 +98,8 @@ std::uint64_t lattice_shortest_squared(std::uint32_t count, std::uint32_t genera
       std::swap(a2, b2);
     }
     const std::int64_t inner = ax * bx + ay * by;
-    const std::int64_t steps = (2 * inner + (inner >= 0 ? a2 : -a2)) / (2 * a2);  // nearest integer to inner / a2
+    const std::int64_t steps =
+        (2 * inner + (inner >= 0 ? a2 : -a2)) / (2 * a2);  // nearest integer to inner / a2
     bx -= steps * ax;
     by -= steps * ay;
     const std::int64_t reduced = bx * bx + by * by;

@@ -21,20 +21,30 @@ struct Vec3 {
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double dot(Vec3 a, Vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double length(Vec3 a) { return std::hypot(a.x, a.y, a.z); }
+inline double length(Vec3 a) {
+  return std::hypot(a.x, a.y, a.z);
+}
 // Zero stays zero.
 inline Vec3 normalise(Vec3 a) {
   const double l = length(a);
   return l > 0 ? a / l : Vec3{};
 }
 // Rec.709 luminance of a linear colour: the scalar for every weight and density.
-inline double luminance(Vec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
-inline std::array<double, 3> to_array(Vec3 v) { return {v.x, v.y, v.z}; }
-inline Vec3 to_vec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+inline double luminance(Vec3 c) {
+  return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
+inline std::array<double, 3> to_array(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+inline Vec3 to_vec3(const std::array<double, 3>& a) {
+  return {a[0], a[1], a[2]};
+}
 
 // Row-major affine or projective transform: m[row][column], applied to column vectors.
 struct Mat4 {

@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::uint32_t group_side = 8;
 
-std::size_t texels(int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
+std::size_t texels(int side) {
+  return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+}
 
 }  // namespace
 

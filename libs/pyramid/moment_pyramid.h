@@ -8,14 +8,15 @@
 
 namespace vsgl {
 
-// The moment pyramid of size x size texels, a power of two, on the device: a buffer a level. Whoever writes the finest level lets
-// merge() make the others.
+// The moment pyramid of size x size texels, a power of two, on the device: a buffer a level. Whoever writes
+// the finest level lets merge() make the others.
 class MomentPyramid {
  public:
   MomentPyramid(gpu::Device& device, int size);
 
   gpu::Buffer& finest() { return levels_.front(); }  // Moments of each texel, row by row
-  // Appends the steps from each level to the next: 2x2 texels in the order 00, 10, 01, 11, by the law of total variance.
+  // Appends the steps from each level to the next: 2x2 texels in the order 00, 10, 01, 11, by the law of
+  // total variance.
   void merge(gpu::Commands& commands) const;
   // All levels in the layout of math/pyramid.h.
   std::vector<interop::Moments> download();

@@ -32,7 +32,8 @@ struct Material {
   std::uint32_t ndf = 1;            // interop::NDF_GGX, NDF_BECKMANN, NDF_PHONG
   double alpha_cutoff = 0;          // base-colour alpha below this is a hole; 0: opaque
   double normal_scale = 1;
-  int base_color_texture = -1, metallic_roughness_texture = -1, normal_texture = -1;  // index into Scene::textures
+  int base_color_texture = -1, metallic_roughness_texture = -1,
+      normal_texture = -1;  // index into Scene::textures
 };
 
 struct Vertex {
@@ -47,7 +48,8 @@ struct Instance {
   std::string name;
   int material = 0;
   std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices;  // triangles; counter-clockwise fronts, mirrored transforms already flipped
+  std::vector<std::uint32_t>
+      indices;  // triangles; counter-clockwise fronts, mirrored transforms already flipped
 };
 
 struct Camera {
@@ -58,22 +60,23 @@ struct Camera {
 };
 
 struct Scene {
-  Vec3 anchor;        // world, m
-  double radius = 1;  // of a sphere about the anchor that holds all vertices
+  Vec3 anchor;                      // world, m
+  double radius = 1;                // of a sphere about the anchor that holds all vertices
   std::vector<Instance> instances;  // the index is the `id.I` of the artifacts
   std::vector<Material> materials;
   std::vector<Texture> textures;
   Camera camera;
-  // One per light of the scene, in world orientation, positions relative to the anchor. A point light's axes are the world's; a
-  // directional light's position is the anchor (the RSM stage frames both).
+  // One per light of the scene, in world orientation, positions relative to the anchor. A point light's axes
+  // are the world's; a directional light's position is the anchor (the RSM stage frames both).
   std::vector<LightSource> lights;
   std::vector<std::string> warnings;  // blended materials taken as cut-outs, and the like
 
   std::size_t triangle_count() const;
 };
 
-// Reads a scene JSON (configs/schema/scene.schema.json) and everything it refers to; paths are relative to the JSON's folder.
-// Throws json_*, mesh_*, texture_unreadable, bad_material, bad_camera, bad_light, file_not_found.
+// Reads a scene JSON (configs/schema/scene.schema.json) and everything it refers to; paths are relative to
+// the JSON's folder. Throws json_*, mesh_*, texture_unreadable, bad_material, bad_camera, bad_light,
+// file_not_found.
 Scene load_scene(const std::filesystem::path& json_path);
 
 // All files that load_scene() reads, for provenance: the JSON first.

@@ -1,5 +1,5 @@
-// A scene on the device and a view of it, for baking G-buffers and reflective shadow maps. Members named `..._at` are device
-// addresses (low and high word), for GLSL's buffer_reference.
+// A scene on the device and a view of it, for baking G-buffers and reflective shadow maps. Members named
+// `..._at` are device addresses (low and high word), for GLSL's buffer_reference.
 #ifndef VSGL_INTEROP_GEOMETRY_H
 #define VSGL_INTEROP_GEOMETRY_H
 #include "interop/interop.h"
@@ -55,7 +55,8 @@ VSGL_CONST uint VIEW_SPOT = 1u;
 VSGL_CONST uint VIEW_DIRECTIONAL = 2u;
 VSGL_CONST uint VIEW_POINT = 3u;
 
-// A camera or a light as a view of width x height texels, row 0 at the top. Directional lights look along parallel rays.
+// A camera or a light as a view of width x height texels, row 0 at the top. Directional lights look along
+// parallel rays.
 struct View {
   vec3 origin;  // eye; directional: centre of the near plane
   uint kind;    // VIEW_*
@@ -72,7 +73,8 @@ struct View {
 };
 VSGL_CHECK_SIZE(View, 96)
 
-// What one bake reads and writes. Outputs have `stride` texels a row and `stride` rows at least; those outside the view are empty.
+// What one bake reads and writes. Outputs have `stride` texels a row and `stride` rows at least; those
+// outside the view are empty.
 struct Bake {
   Geometry geometry;
   View view;

@@ -29,7 +29,8 @@ struct mat4 {
 #define VSGL_INTEROP_BEGIN namespace vsgl::interop {
 #define VSGL_INTEROP_END }
 #define VSGL_CONST inline constexpr
-#define VSGL_CHECK_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type " must have the same layout in GLSL");
+#define VSGL_CHECK_SIZE(type, bytes) \
+  static_assert(sizeof(type) == (bytes), #type " must have the same layout in GLSL");
 #else
 #define VSGL_INTEROP_BEGIN
 #define VSGL_INTEROP_END

@@ -5,27 +5,27 @@
 
 VSGL_INTEROP_BEGIN
 
-// One light: a Gaussian footprint with two emission lobes (VSGL), and the representative surface point that makes it a VPL.
-// For a VPL variance = 0 and the lobes are unused.
+// One light: a Gaussian footprint with two emission lobes (VSGL), and the representative surface point that
+// makes it a VPL. For a VPL variance = 0 and the lobes are unused.
 struct Light {
-  vec3 position;             // mean, m, relative to the anchor
-  float variance;            // per axis (planar), sigma^2 = E|y - mean|^2 / 2, m^2
-  vec3 power_diffuse;        // W
-  float diffuse_sharpness;   // of the normalised SG
-  vec3 diffuse_axis;         // along emission, unit
+  vec3 position;            // mean, m, relative to the anchor
+  float variance;           // per axis (planar), sigma^2 = E|y - mean|^2 / 2, m^2
+  vec3 power_diffuse;       // W
+  float diffuse_sharpness;  // of the normalised SG
+  vec3 diffuse_axis;        // along emission, unit
   float specular_sharpness;
-  vec3 power_specular;       // W
-  float alpha;               // roughness of the representative specular lobe (Phong: sqrt(2/(n+2)))
-  vec3 specular_axis;        // along emission, unit
-  uint ndf;                  // NDF_* of the representative specular lobe
-  vec3 normal;               // geometric, unit: the side from which light leaves
-  float normal_deficit;      // 1 - |mean normal|^2 over the cluster
-  vec3 shading_normal;       // of the representative point, unit
-  float level;               // mip level of the kernel, 0 = one texel
-  vec3 incident;             // unit, towards the light source, at the representative point
-  uint texel;                // row-major index of the sampled texel in its RSM layer
-  vec3 origin;               // representative point on a surface (the sampled texel), m, relative to the anchor
-  uint layer;                // which RSM layer (light, cube face)
+  vec3 power_specular;   // W
+  float alpha;           // roughness of the representative specular lobe (Phong: sqrt(2/(n+2)))
+  vec3 specular_axis;    // along emission, unit
+  uint ndf;              // NDF_* of the representative specular lobe
+  vec3 normal;           // geometric, unit: the side from which light leaves
+  float normal_deficit;  // 1 - |mean normal|^2 over the cluster
+  vec3 shading_normal;   // of the representative point, unit
+  float level;           // mip level of the kernel, 0 = one texel
+  vec3 incident;         // unit, towards the light source, at the representative point
+  uint texel;            // row-major index of the sampled texel in its RSM layer
+  vec3 origin;           // representative point on a surface (the sampled texel), m, relative to the anchor
+  uint layer;            // which RSM layer (light, cube face)
 };
 VSGL_CHECK_SIZE(Light, 144)
 

@@ -14,8 +14,8 @@ VSGL_CONST uint NDF_PHONG = 3u;
 // `id.I` of a pixel or texel that sees nothing.
 VSGL_CONST uint NO_INSTANCE = 0xFFFFFFFFu;
 
-// Sharpness of the spherical Gaussian that stands for a Lambert lobe: least-squares fit of the normalised vMF to cos/pi
-// (Tokuyoshi 2016, A.1 rounds it to 2), and its encoding by the Banerjee pair.
+// Sharpness of the spherical Gaussian that stands for a Lambert lobe: least-squares fit of the normalised vMF
+// to cos/pi (Tokuyoshi 2016, A.1 rounds it to 2), and its encoding by the Banerjee pair.
 VSGL_CONST float LAMBDA_DIFFUSE = 2.2925f;
 VSGL_CONST float ALPHA_MIN = 1e-3f;
 

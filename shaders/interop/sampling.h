@@ -12,8 +12,8 @@ VSGL_CONST uint POINTS_RANDOM = 2u;     // counter-based hash
 
 VSGL_CONST uint MAX_POINTS = 1048576u;
 
-// A point set; make_point_set() of math/sampling.h fills it. Coordinates are 32-bit fixed point until the very last step: float32
-// products such as i * 0.618 have 6067 distinct fractions among 2^20.
+// A point set; make_point_set() of math/sampling.h fills it. Coordinates are 32-bit fixed point until the
+// very last step: float32 products such as i * 0.618 have 6067 distinct fractions among 2^20.
 struct PointSet {
   uint kind;       // POINTS_*
   uint count;      // 1..MAX_POINTS
@@ -24,8 +24,9 @@ struct PointSet {
 VSGL_CHECK_SIZE(PointSet, 28)
 
 // How large a filter kernel is and what power its light gets (docs/sampling.md).
-VSGL_CONST uint KERNEL_TEXEL = 0u;      // no filter: the sampled texel
-VSGL_CONST uint KERNEL_DENSITY = 1u;    // from the density at the centre [Tokuyoshi 2014; Tokuyoshi 2016, Eq. (1), (4)]
+VSGL_CONST uint KERNEL_TEXEL = 0u;  // no filter: the sampled texel
+VSGL_CONST uint KERNEL_DENSITY =
+    1u;  // from the density at the centre [Tokuyoshi 2014; Tokuyoshi 2016, Eq. (1), (4)]
 VSGL_CONST uint KERNEL_NEWTON = 2u;     // from the density's integral, exact [Tokuyoshi 2016, Eq. (3), (5)]
 VSGL_CONST uint KERNEL_BISECTION = 3u;  // the same by 12 bisections [Tokuyoshi 2016, Alg. 1]
 

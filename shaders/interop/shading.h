@@ -8,24 +8,24 @@ VSGL_INTEROP_BEGIN
 
 // A light with everything that does not depend on the pixel computed beforehand.
 struct ShadingLight {
-  vec3 position;            // mean, m, relative to the anchor; VPL: the representative point
-  float variance;           // per axis, m^2, > 0
-  vec3 diffuse_axis;        // along emission
+  vec3 position;      // mean, m, relative to the anchor; VPL: the representative point
+  float variance;     // per axis, m^2, > 0
+  vec3 diffuse_axis;  // along emission
   float diffuse_sharpness;
-  vec3 power_diffuse;       // W
-  float diffuse_scale;      // 1 / A(diffuse_sharpness): power times this is the SG's peak, W/sr
+  vec3 power_diffuse;   // W
+  float diffuse_scale;  // 1 / A(diffuse_sharpness): power times this is the SG's peak, W/sr
   vec3 specular_axis;
   float specular_sharpness;
-  vec3 power_specular;      // W
-  float specular_scale;     // 1 / A(specular_sharpness); disk formulation: also over the cosine of its axis
-  vec3 normal;              // geometric, of the mean surface
-  float bandwidth;          // sharpest emission lobe, for bias reduction
-  vec3 shading_normal;      // of the representative point
+  vec3 power_specular;   // W
+  float specular_scale;  // 1 / A(specular_sharpness); disk formulation: also over the cosine of its axis
+  vec3 normal;           // geometric, of the mean surface
+  float bandwidth;       // sharpest emission lobe, for bias reduction
+  vec3 shading_normal;   // of the representative point
   float alpha;
-  vec3 incident;            // towards the light source
-  float cos_incident;       // incident . shading_normal, at least 1e-4
-  uint ndf;                 // NDF_* of the representative surface
-  uint index;               // of the light in lights.exr: its tile in the shadow atlas
+  vec3 incident;       // towards the light source
+  float cos_incident;  // incident . shading_normal, at least 1e-4
+  uint ndf;            // NDF_* of the representative surface
+  uint index;          // of the light in lights.exr: its tile in the shadow atlas
   float inverse_variance;
 };
 VSGL_CHECK_SIZE(ShadingLight, 140)
@@ -35,9 +35,9 @@ VSGL_CONST uint SHADING_BLOCK_LIGHTS = 468u;
 
 // Sums of one receiver, without its reflectances.
 struct ShadingSums {
-  vec3 diffuse;    // irradiance / pi
-  float aside;     // luminance of the radiance that cancelled lights gave; VPL: that the clamp took away
-  vec3 specular;   // radiance / specular reflectance
+  vec3 diffuse;   // irradiance / pi
+  float aside;    // luminance of the radiance that cancelled lights gave; VPL: that the clamp took away
+  vec3 specular;  // radiance / specular reflectance
   float padding;
 };
 VSGL_CHECK_SIZE(ShadingSums, 32)
@@ -73,7 +73,8 @@ struct DirectPush {
 VSGL_CHECK_SIZE(DirectPush, 116)
 
 // Specialisation constants of the shading kernels.
-VSGL_CONST uint SHADING_RECEIVER_ID = 0u;  // NDF_* of the receivers, NDF_NONE: diffuse only, NDF_ANY: read per pixel
+VSGL_CONST uint SHADING_RECEIVER_ID =
+    0u;  // NDF_* of the receivers, NDF_NONE: diffuse only, NDF_ANY: read per pixel
 VSGL_CONST uint SHADING_EMISSION_ID = 1u;  // NDF_* of the lights, likewise
 VSGL_CONST uint SHADING_SHADOWS_ID = 2u;   // 1: look up shadow maps
 VSGL_CONST uint SHADING_CANCEL_ID = 3u;    // 1: consistent bias reduction

@@ -16,12 +16,12 @@ VSGL_CHECK_SIZE(SplatPoint, 32)
 
 // The shadow map of one light: a hemisphere seen from just above the emitting surface.
 struct SplatView {
-  vec3 origin;         // m, relative to the anchor
-  float near_distance; // nothing nearer than this is an occluder, m
-  vec3 axis;           // unit, middle of the hemisphere
-  float own_radius;    // points nearer than this that lie in the emitting surface's plane belong to it, m
-  vec3 surface;        // the point of that plane below `origin`, m
-  uint first_point;    // the light's points start here in the pool, and wrap around
+  vec3 origin;          // m, relative to the anchor
+  float near_distance;  // nothing nearer than this is an occluder, m
+  vec3 axis;            // unit, middle of the hemisphere
+  float own_radius;     // points nearer than this that lie in the emitting surface's plane belong to it, m
+  vec3 surface;         // the point of that plane below `origin`, m
+  uint first_point;     // the light's points start here in the pool, and wrap around
 };
 VSGL_CHECK_SIZE(SplatView, 48)
 
@@ -37,9 +37,9 @@ struct SplatPush {
 };
 VSGL_CHECK_SIZE(SplatPush, 28)
 
-VSGL_CONST int SPLAT_MAX_WIDTH = 15;     // texels a side
-VSGL_CONST uint PULL_PUSH_LEVELS = 3u;   // above level 0: holes up to 2^3 texels wide are closed
-VSGL_CONST float PULL_PUSH_NEAR = 0.05f; // depths that differ by less than this fraction are one surface
+VSGL_CONST int SPLAT_MAX_WIDTH = 15;      // texels a side
+VSGL_CONST uint PULL_PUSH_LEVELS = 3u;    // above level 0: holes up to 2^3 texels wide are closed
+VSGL_CONST float PULL_PUSH_NEAR = 0.05f;  // depths that differ by less than this fraction are one surface
 
 VSGL_INTEROP_END
 #endif

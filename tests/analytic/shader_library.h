@@ -92,7 +92,9 @@ struct LibraryFile {
   std::vector<float> appendix{};   // behind the arguments: data that the shader reads on its own
 };
 
-inline void PrintTo(const LibraryFile& file, std::ostream* stream) { *stream << file.name; }  // for GoogleTest
+inline void PrintTo(const LibraryFile& file, std::ostream* stream) {
+  *stream << file.name;
+}  // for GoogleTest
 
 // shader_library_<topic>.cpp.
 std::vector<LibraryFile> gaussian_files();

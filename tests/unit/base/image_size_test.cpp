@@ -6,7 +6,8 @@ namespace vsgl {
 namespace {
 
 TEST(ImageSize, ReadsSquaresAndRectangles) {
-  const ImageSize square = read_image_size("--size", "512", 4096), rectangle = read_image_size("--size", "640x360", 4096);
+  const ImageSize square = read_image_size("--size", "512", 4096),
+                  rectangle = read_image_size("--size", "640x360", 4096);
   EXPECT_EQ(square.width, 512);
   EXPECT_EQ(square.height, 512);
   EXPECT_EQ(rectangle.width, 640);
