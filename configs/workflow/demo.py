@@ -21,7 +21,7 @@ SCENES = {
 
 
 def oiiotool(*arguments):
-    return subprocess.run(["oiiotool", *arguments], check=True, capture_output=True, text=True).stdout
+    return subprocess.run(["oiiotool", "--nosoftwareattrib", *arguments], check=True, capture_output=True, text=True).stdout
 
 
 def mean_and_deviation(path, layer):
