@@ -28,7 +28,7 @@ struct Case {
 constexpr Case kCases[] = {{"diffuse", false}, {"ggx", true}};
 
 struct Options {
-  int width = 320, height = 180, lights = 1024, repetitions = 5, threads = 0;
+  int width = 640, height = 360, lights = 1024, repetitions = 7, threads = 0;
   bool narrow = false;
   std::string output;
 };
