@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "math/interop_vec.h"
+#include "math/light_view.h"
 #include "stages/rsm/rsm.h"
 
 namespace vsgl {
@@ -19,18 +20,6 @@ constexpr double kFrameMargin = 1.001;
 // Points a side at which a texel's intensity is taken: the more, the fewer texels there are.
 interop::uint samples_per_side(int width, int height) {
   return static_cast<interop::uint>(std::clamp(256 / std::max(width, height), 4, 64));
-}
-
-interop::uint view_kind(LightType type) {
-  switch (type) {
-    case LightType::spot:
-      return interop::VIEW_SPOT;
-    case LightType::directional:
-      return interop::VIEW_DIRECTIONAL;
-    case LightType::point:
-      return interop::VIEW_POINT;
-  }
-  throw Error(ErrorCode::internal, "unknown type of light");
 }
 
 void require_sound(const LightSource& light) {
@@ -115,21 +104,9 @@ interop::View camera_view(const scene::Camera& camera, double scene_radius) {
 }
 
 interop::View light_view(const LightSource& light, double scene_radius, int width, int height) {
-  interop::View view{};
-  view.origin = to_float(light.position);
-  view.kind = view_kind(light.type);
-  view.right = to_float(light.right);
-  view.extent_x = static_cast<float>(light.extent_x);
-  view.up = to_float(light.up);
-  view.extent_y = static_cast<float>(light.extent_y);
-  view.forward = to_float(light.forward);
+  interop::View view = light_view(light, width, height);
   const bool parallel = light.type == LightType::directional;
   view.near_far = static_cast<float>(parallel ? 2 * kFrameMargin * scene_radius : kNear * scene_radius);
-  view.intensity = to_float(light.intensity);
-  view.cos_inner = static_cast<float>(light.cos_inner);
-  view.cos_outer = static_cast<float>(light.cos_outer);
-  view.width = static_cast<interop::uint>(width);
-  view.height = static_cast<interop::uint>(height);
   view.samples = samples_per_side(width, height);
   return view;
 }

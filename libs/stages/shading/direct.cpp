@@ -1,9 +1,10 @@
 #include <cstdint>
 
-#include "base/error.h"
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
 #include "interop/shading.h"
+#include "math/interop_vec.h"
+#include "math/light_view.h"
 #include "spirv/shading/direct.comp.glsl.h"  // after <cstdint>, which it needs
 #include "stages/shading/methods.h"
 #include "stages/shading/receivers.h"
@@ -14,37 +15,10 @@ namespace {
 
 constexpr const char* kPhase = "direct";
 
-interop::vec3 to_float(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-interop::uint view_kind(LightType type) {
-  switch (type) {
-    case LightType::spot:
-      return interop::VIEW_SPOT;
-    case LightType::directional:
-      return interop::VIEW_DIRECTIONAL;
-    case LightType::point:
-      return interop::VIEW_POINT;
-  }
-  throw Error(ErrorCode::internal, "unknown type of light");
-}
-
 interop::DirectPush make_push(const GBuffer& gbuffer, const Rsm& rsm, const LightSource& light) {
   interop::DirectPush push{};
-  push.view.origin = to_float(light.position);
-  push.view.kind = view_kind(light.type);
-  push.view.right = to_float(light.right);
-  push.view.extent_x = static_cast<float>(light.extent_x);
-  push.view.up = to_float(light.up);
-  push.view.extent_y = static_cast<float>(light.extent_y);
-  push.view.forward = to_float(light.forward);
+  push.view = light_view(light, rsm.width, rsm.height);
   push.view.near_far = 1;  // only x and y of the clip coordinates are used
-  push.view.intensity = to_float(light.intensity);
-  push.view.cos_inner = static_cast<float>(light.cos_inner);
-  push.view.cos_outer = static_cast<float>(light.cos_outer);
-  push.view.width = static_cast<interop::uint>(rsm.width);
-  push.view.height = static_cast<interop::uint>(rsm.height);
   push.camera = to_float(gbuffer.camera);
   push.stride = static_cast<interop::uint>(rsm.size);
   return push;
