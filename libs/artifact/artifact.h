@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "artifact/pyramid.h"
@@ -106,6 +107,28 @@ struct ShadowMaps {
 void write(const std::filesystem::path& path, const ShadowMaps& maps, const Provenance& provenance);
 ShadowMaps read_shadow_maps(const std::filesystem::path& path);
 
+// Exact visibility of every light from every pixel. Bit i % 32 of word i / 32 of a pixel belongs to light i:
+// 1 = visible. Background pixels see nothing.
+struct VisibilityBits {
+  int width = 0, height = 0;
+  int lights = 0;
+  Vec3 anchor;
+  std::vector<std::uint32_t> words;  // word by word, each width * height pixels row by row
+
+  int words_per_pixel() const { return (lights + 31) / 32; }
+  bool visible(std::size_t light, std::size_t pixel) const {
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return (words[light / 32 * pixels + pixel] >> (light % 32) & 1U) != 0;
+  }
+};
+void write(const std::filesystem::path& path, const VisibilityBits& bits, const Provenance& provenance);
+VisibilityBits read_visibility_bits(const std::filesystem::path& path);
+
+// How the lights are seen: what ismap writes and shade looks up. `read_visibility` tells them apart by schema.
+using Visibility = std::variant<ShadowMaps, VisibilityBits>;
+void write(const std::filesystem::path& path, const Visibility& visibility, const Provenance& provenance);
+Visibility read_visibility(const std::filesystem::path& path);
+
 // Radiance per pixel, W/(m^2 sr). Empty vectors are layers that were not computed and are not in the file.
 struct Indirect {
   int width = 0, height = 0;
@@ -117,5 +140,15 @@ struct Indirect {
 };
 void write(const std::filesystem::path& path, const Indirect& indirect, const Provenance& provenance);
 Indirect read_indirect(const std::filesystem::path& path);
+
+// Ground truth: `radiance` without its cancellation layer, and the variance of the mean of its indirect light.
+struct Reference {
+  Indirect radiance;
+  std::vector<interop::vec3> variance;  // per channel, (W/(m^2 sr))^2, of diffuse + specular
+  std::string strategy;                 // light | brdf | mis
+  std::uint64_t samples = 0;            // a pixel and strategy
+};
+void write(const std::filesystem::path& path, const Reference& reference, const Provenance& provenance);
+Reference read_reference(const std::filesystem::path& path);
 
 }  // namespace vsgl

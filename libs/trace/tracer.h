@@ -1,0 +1,55 @@
+#pragma once
+
+// Exact visibility and intersection on the CPU, by Embree.
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "interop/surface.h"
+#include "math/vec.h"
+#include "scene/scene.h"
+
+namespace vsgl::trace {
+
+// Where a ray meets the scene.
+struct Hit {
+  std::uint32_t instance = 0, triangle = 0;  // of the scene, and of the instance's index list
+  double b = 0, c = 0;                       // barycentric coordinates of the triangle's second and third corner
+  double distance = 0;                       // m, along the unit direction
+};
+
+// A scene (which must outlive it) prepared for rays. Positions in metres relative to the scene's anchor.
+// Everything const may be called from many threads at once, and answers the same on any number of them.
+// Alpha cut-outs let rays through.
+class Tracer {
+ public:
+  // Throws mesh_invalid when an index points nowhere or there is nothing to trace, memory.
+  explicit Tracer(const scene::Scene& scene);
+  explicit Tracer(scene::Scene&& scene) = delete;
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  // The nearest surface from `origin` along the unit `direction`, further than `nearest` away. `self`: the hit
+  // whose triangle the ray starts on, which it cannot meet again.
+  std::optional<Hit> intersect(Vec3 origin, Vec3 direction, double nearest = 0, const Hit* self = nullptr) const;
+
+  // Whether anything lies strictly between two surface points. Both ends are lifted off their surfaces along
+  // their geometric normals, on the side of the other end, by a fixed fraction of the scene's radius.
+  // A point that is no surface (a light source) has the normal 0.
+  bool occluded(Vec3 a, Vec3 normal_a, Vec3 b, Vec3 normal_b) const;
+  // Whether anything lies on the ray from `a` to infinity along the unit `direction`.
+  bool occluded_to_infinity(Vec3 a, Vec3 normal_a, Vec3 direction) const;
+
+  // The surface at a hit, as rsm-bake resolves it, with its normals on the side of `towards` (unit, towards
+  // the viewer). Textures at full resolution.
+  interop::Surface surface(const Hit& hit, Vec3 towards) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vsgl::trace
