@@ -1,0 +1,115 @@
+#include "files.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "stages/metrics/compare.h"
+
+namespace vsgl::app {
+namespace {
+
+using metrics::Metric;
+
+std::string list_of_metrics() {
+  std::string text;
+  for (const Metric& metric : metrics::all_metrics())
+    text += std::string(metric.name) + std::string(12 - metric.name.size(), ' ') +
+            std::string(metric.formula) + "\n";
+  text.pop_back();
+  return text;
+}
+
+const Metric& metric_named(const std::string& flag, const std::string& name) {
+  if (const Metric* metric = metrics::find_metric(name)) return *metric;
+  throw Error(ErrorCode::bad_value, flag + " " + name + ": no such metric; see --list-metrics");
+}
+
+metrics::Options options_of(const FilesArguments& a, const CLI::App& app) {
+  metrics::Options options;
+  for (const std::string& limit : a.limits) {
+    const std::size_t equals = limit.find('=');
+    if (equals == std::string::npos)
+      throw Error(ErrorCode::bad_value, "--limit " + limit + ": must be METRIC=VALUE, as relmse=1e-6");
+    options.limits.emplace_back(&metric_named("--limit", limit.substr(0, equals)),
+                                number_of("--limit " + limit, limit.substr(equals + 1)));
+  }
+  for (const std::string& name : a.metrics) options.metrics.push_back(&metric_named("--metric", name));
+  const bool explicit_threshold =
+      app.count("--threshold") + app.count("--fail-percent") + app.count("--hard-limit") > 0;
+  if (options.limits.empty() || explicit_threshold) {
+    options.threshold = {a.threshold, a.fail_percent, a.hard_limit};
+  } else {
+    options.threshold.reset();
+  }
+  options.relmse_epsilon = a.relmse_epsilon;
+  options.allow_non_finite = a.allow_non_finite;
+  options.channels = a.channels;
+  options.exclude = a.exclude;
+  return options;
+}
+
+// The report's figures; the first failures are also warnings, so that they reach stderr.
+void summarise(Report& report, const metrics::Comparison& comparison, const nlohmann::ordered_json& result) {
+  constexpr std::size_t kShown = 20;
+  report.count("result", result["result"]);
+  report.count("channels", comparison.channels.size());
+  report.count("failures", comparison.failures.size());
+  for (std::size_t i = 0; i < std::min(kShown, comparison.failures.size()); ++i)
+    report.warn(comparison.failures[i].message);
+  if (comparison.failures.size() > kShown)
+    report.warn("and " + std::to_string(comparison.failures.size() - kShown) +
+                " more differences; see --output");
+}
+
+}  // namespace
+
+void declare_files(Tool& tool, FilesArguments& a) {
+  CLI::App& app = tool.app();
+  declare_maps(tool, a.maps);
+  app.add_option("--threshold", a.threshold, "largest |A - B| that is no difference")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--fail-percent", a.fail_percent, "percentage of pixels that may exceed --threshold")
+      ->check(CLI::Range(0.0, 100.0));
+  app.add_option("--hard-limit", a.hard_limit, "|A - B| that no pixel may exceed (default: none)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option(
+      "--limit", a.limits,
+      "METRIC=VALUE: bound on a metric of each channel; without --threshold only these bounds count");
+  app.add_option("--metric", a.metrics, "metrics to report (default: all)");
+  app.add_option("--relmse-epsilon", a.relmse_epsilon, "epsilon of relmse (default: (mean|B| / 100)^2)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--channels", a.channels, "compare only these channels (flux.R) or layers (flux)");
+  app.add_option("--exclude", a.exclude, "leave out these channels or layers");
+  app.add_flag("--allow-non-finite", a.allow_non_finite,
+               "leave out pixels that are not finite instead of failing");
+  app.add_flag_callback(
+      "--list-metrics", [] { throw CLI::CallForVersion(list_of_metrics(), 0); },
+      "print the metrics with their formulas and exit");
+}
+
+Exit compare_files(Tool& tool, const Inputs& inputs, const FilesArguments& a, Report& report,
+                   OutputSet& outputs) {
+  const metrics::Options options = options_of(a, tool.app());
+  const int threads = tool.common().threads;
+  set_exr_threads(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
+  const auto read = [&](const std::filesystem::path& path) {
+    const PhaseTimer timer(report, "read");
+    return read_exr(path);
+  };
+  const ExrFile test = read(inputs.test), reference = read(inputs.reference);
+  metrics::Comparison comparison;
+  {
+    const PhaseTimer timer(report, "compare");
+    comparison = metrics::compare(test, reference, options);
+  }
+  const nlohmann::ordered_json result = metrics::to_json(comparison, test, reference, options);
+  summarise(report, comparison, result);
+  if (tool.common().json) report.count("comparison", result);
+
+  const PhaseTimer timer(report, "write");
+  if (!inputs.output.empty()) write_text(outputs.add(inputs.output), result.dump(2) + "\n");
+  write_maps(tool, a.maps, test, reference, options, report, outputs);
+  return comparison.failures.empty() ? Exit::ok : Exit::differs;
+}
+
+}  // namespace vsgl::app
