@@ -13,11 +13,19 @@
 
 namespace vsgl::trace {
 
+// Lift of a ray's ends off their surfaces, as a fraction of the scene's radius R. Single-precision positions
+// and intersections err by up to about 3e-7 R, so this clears a surface at any angle; only gaps and walls
+// thinner than it go wrong.
+inline constexpr double kLift = 1e-5;
+// Surfaces nearer to a light source than this fraction of R cast no shadow: those in front of rsm-bake's near
+// plane.
+inline constexpr double kNear = 1e-4;
+
 // Where a ray meets the scene.
 struct Hit {
   std::uint32_t instance = 0, triangle = 0;  // of the scene, and of the instance's index list
-  double b = 0, c = 0;                       // barycentric coordinates of the triangle's second and third corner
-  double distance = 0;                       // m, along the unit direction
+  double b = 0, c = 0;  // barycentric coordinates of the triangle's second and third corner
+  double distance = 0;  // m, along the unit direction
 };
 
 // A scene (which must outlive it) prepared for rays. Positions in metres relative to the scene's anchor.
@@ -32,13 +40,14 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  // The nearest surface from `origin` along the unit `direction`, further than `nearest` away. `self`: the hit
-  // whose triangle the ray starts on, which it cannot meet again.
-  std::optional<Hit> intersect(Vec3 origin, Vec3 direction, double nearest = 0, const Hit* self = nullptr) const;
+  // The nearest surface from `origin` along the unit `direction`, further than `nearest` away. `self`: the
+  // hit whose triangle the ray starts on, which it cannot meet again.
+  std::optional<Hit> intersect(Vec3 origin, Vec3 direction, double nearest = 0,
+                               const Hit* self = nullptr) const;
 
   // Whether anything lies strictly between two surface points. Both ends are lifted off their surfaces along
-  // their geometric normals, on the side of the other end, by a fixed fraction of the scene's radius.
-  // A point that is no surface (a light source) has the normal 0.
+  // their geometric normals, on the side of the other end, by kLift times the scene's radius.
+  // A point that is no surface (a light source) has the normal 0; nothing occludes within kNear of it.
   bool occluded(Vec3 a, Vec3 normal_a, Vec3 b, Vec3 normal_b) const;
   // Whether anything lies on the ray from `a` to infinity along the unit `direction`.
   bool occluded_to_infinity(Vec3 a, Vec3 normal_a, Vec3 direction) const;

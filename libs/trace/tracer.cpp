@@ -1,0 +1,168 @@
+#include "trace/tracer.h"
+
+#include <embree3/rtcore.h>
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "trace/surface_resolver.h"
+
+namespace vsgl::trace {
+namespace {
+
+struct DeviceRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneRelease {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+struct GeometryRelease {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+template <typename Handle, typename Release>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
+
+// Throws what the device's last call went wrong with.
+void require_success(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY)
+    throw Error(ErrorCode::memory, "not enough memory to trace rays through the scene; use a smaller scene");
+  throw Error(ErrorCode::internal, "Embree failed with error " + std::to_string(error));
+}
+
+RTCRay make_ray(Vec3 origin, Vec3 direction, float nearest, float farthest) {
+  RTCRay ray{};
+  ray.org_x = static_cast<float>(origin.x);
+  ray.org_y = static_cast<float>(origin.y);
+  ray.org_z = static_cast<float>(origin.z);
+  ray.dir_x = static_cast<float>(direction.x);
+  ray.dir_y = static_cast<float>(direction.y);
+  ray.dir_z = static_cast<float>(direction.z);
+  ray.tnear = nearest;
+  ray.tfar = farthest;
+  ray.mask = ~0U;
+  return ray;
+}
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// What a geometry's filter needs.
+struct FilterData {
+  const SurfaceResolver* resolver;
+  std::uint32_t instance;
+};
+
+// Lets rays through the holes of cut-out materials.
+void skip_holes(const RTCFilterFunctionNArguments* args) {
+  const auto& data = *static_cast<const FilterData*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const Hit hit{data.instance, RTCHitN_primID(args->hit, args->N, i),
+                  static_cast<double>(RTCHitN_u(args->hit, args->N, i)),
+                  static_cast<double>(RTCHitN_v(args->hit, args->N, i)), 0};
+    if (data.resolver->is_hole(hit)) args->valid[i] = 0;
+  }
+}
+
+}  // namespace
+
+struct Tracer::Impl {
+  explicit Impl(const scene::Scene& scene);
+
+  void add(const scene::Instance& instance, FilterData& filter_data);
+  // A surface point moved to the side of `towards`; a light source stays.
+  Vec3 lifted(Vec3 point, Vec3 normal, Vec3 towards) const {
+    return point + (dot(normal, towards) < 0 ? -lift : lift) * normal;
+  }
+  bool occluded(RTCRay ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(embree_scene.get(), &context, &ray);
+    return ray.tfar < 0;
+  }
+
+  SurfaceResolver resolver;
+  double lift, near;
+  std::vector<FilterData> filters;  // one per instance, at addresses that Embree keeps
+  // One thread builds, so that the same scene gives the same hierarchy everywhere.
+  Owned<RTCDevice, DeviceRelease> device{rtcNewDevice("threads=1")};
+  Owned<RTCScene, SceneRelease> embree_scene;
+};
+
+Tracer::Impl::Impl(const scene::Scene& scene)
+    : resolver(scene), lift(kLift * scene.radius), near(kNear * scene.radius) {
+  if (scene.triangle_count() == 0) throw Error(ErrorCode::mesh_invalid, "the scene has no triangle to trace");
+  if (!device) require_success(nullptr);
+  embree_scene.reset(rtcNewScene(device.get()));
+  rtcSetSceneFlags(embree_scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(embree_scene.get(), RTC_BUILD_QUALITY_HIGH);
+  filters.reserve(scene.instances.size());
+  for (const scene::Instance& instance : scene.instances) {
+    filters.push_back({&resolver, static_cast<std::uint32_t>(filters.size())});
+    if (instance.indices.size() >= 3) add(instance, filters.back());
+  }
+  rtcCommitScene(embree_scene.get());
+  require_success(device.get());
+}
+
+void Tracer::Impl::add(const scene::Instance& instance, FilterData& filter_data) {
+  const Owned<RTCGeometry, GeometryRelease> geometry(
+      rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  static_assert(offsetof(scene::Vertex, position) == 0 && sizeof(scene::Vertex) >= 16,
+                "Embree reads 16 bytes from each vertex");
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                             instance.vertices.data(), 0, sizeof(scene::Vertex), instance.vertices.size());
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             instance.indices.data(), 0, 3 * sizeof(std::uint32_t),
+                             instance.indices.size() / 3);
+  if (resolver.has_holes(instance)) {
+    rtcSetGeometryUserData(geometry.get(), &filter_data);
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), skip_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), skip_holes);
+  }
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(embree_scene.get(), geometry.get(), filter_data.instance);
+  require_success(device.get());
+}
+
+Tracer::Tracer(const scene::Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+Tracer::~Tracer() = default;
+
+std::optional<Hit> Tracer::intersect(Vec3 origin, Vec3 direction, double nearest, const Hit* self) const {
+  float beyond = static_cast<float>(nearest);
+  for (;;) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit ray{make_ray(origin, direction, beyond, kInfinity), {}};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(impl_->embree_scene.get(), &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    const bool is_self =
+        self != nullptr && self->instance == ray.hit.geomID && self->triangle == ray.hit.primID;
+    if (!is_self)
+      return Hit{ray.hit.geomID, ray.hit.primID, static_cast<double>(ray.hit.u),
+                 static_cast<double>(ray.hit.v), static_cast<double>(ray.ray.tfar)};
+    beyond = std::nextafter(ray.ray.tfar, kInfinity);
+  }
+}
+
+bool Tracer::occluded(Vec3 a, Vec3 normal_a, Vec3 b, Vec3 normal_b) const {
+  const Vec3 start = impl_->lifted(a, normal_a, b - a), end = impl_->lifted(b, normal_b, a - b);
+  const Vec3 d = end - start;
+  const auto share = [&](Vec3 normal) {
+    return normal == Vec3{} ? static_cast<float>(impl_->near / length(d)) : 0;
+  };
+  return impl_->occluded(make_ray(start, d, share(normal_a), 1 - share(normal_b)));
+}
+
+bool Tracer::occluded_to_infinity(Vec3 a, Vec3 normal_a, Vec3 direction) const {
+  return impl_->occluded(make_ray(impl_->lifted(a, normal_a, direction), direction, 0, kInfinity));
+}
+
+interop::Surface Tracer::surface(const Hit& hit, Vec3 towards) const {
+  return impl_->resolver.surface(hit, towards);
+}
+
+}  // namespace vsgl::trace
