@@ -166,6 +166,13 @@ inline Indirect sample_indirect(bool specular, bool direct, bool cancellation) {
   return out;
 }
 
+inline Reference sample_reference(bool specular) {
+  Counter c;
+  Reference out{sample_indirect(specular, true, false), {}, "mis", 1024};
+  for (int i = 0; i < 8; ++i) out.variance.push_back(c.vec3());
+  return out;
+}
+
 template <typename T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);

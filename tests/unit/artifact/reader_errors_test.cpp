@@ -34,6 +34,8 @@ const std::vector<Kind>& kinds() {
        [](const auto& p) { read_shadow_maps(p); }, "inverse_distance.V", "inverse_distance.V", "at least 0"},
       {"indirect", [](const auto& p) { write(p, sample_indirect(true, true, true), sample_provenance()); },
        [](const auto& p) { read_indirect(p); }, "indirect.G", "cancellation.V", "0..1"},
+      {"reference", [](const auto& p) { write(p, sample_reference(true), sample_provenance()); },
+       [](const auto& p) { read_reference(p); }, "variance.G", "variance.G", "at least 0"},
   };
   return all;
 }
@@ -299,6 +301,15 @@ TEST(IndirectErrors, LayersBelongTogether) {
   });
   file.expect(ErrorCode::invalid_data, {"'cancellation.V'", "2 is not 0..1"},
               [](ExrFile& f) { pixel(f, 0, 0, "cancellation.V", 2) = 2; });
+}
+
+TEST(ReferenceErrors, Strategy) {
+  const TemporaryFolder folder;
+  write(folder / "valid.exr", sample_reference(false), sample_provenance());
+  rewrite(folder / "valid.exr", folder / "broken.exr",
+          [](ExrFile& file) { file.parts[0].attributes["reference.strategy"] = std::string("guess"); });
+  expect_error(ErrorCode::invalid_data, {"reference.strategy", "guess"},
+               [&] { read_reference(folder / "broken.exr"); });
 }
 
 }  // namespace

@@ -138,6 +138,22 @@ TEST(RoundTrip, Indirect) {
     }
 }
 
+TEST(RoundTrip, Reference) {
+  const TemporaryFolder folder;
+  for (bool specular : {false, true}) {
+    const Reference a = sample_reference(specular);
+    write(folder / "r.exr", a, sample_provenance());
+    const Reference b = read_reference(folder / "r.exr");
+    EXPECT_TRUE(same_bytes(a.radiance.diffuse, b.radiance.diffuse));
+    EXPECT_TRUE(same_bytes(a.radiance.specular, b.radiance.specular));
+    EXPECT_TRUE(same_bytes(a.radiance.direct, b.radiance.direct));
+    EXPECT_TRUE(same_bytes(a.variance, b.variance));
+    EXPECT_EQ(b.strategy, "mis");
+    EXPECT_EQ(b.samples, 1024u);
+    EXPECT_EQ(has_channel(read_exr(folder / "r.exr").parts[0], "specular.R"), specular);
+  }
+}
+
 TEST(RoundTrip, DirectLightAlone) {
   const TemporaryFolder folder;
   Indirect a = sample_indirect(false, true, false);
