@@ -123,6 +123,11 @@ JsonValue JsonValue::parse_text(const std::string& text, const std::string& orig
   }
 }
 
+JsonValue JsonValue::of(Json document, const std::string& origin) {
+  auto root = std::make_shared<const Json>(std::move(document));
+  return JsonValue(root, root.get(), origin, "");
+}
+
 std::string JsonValue::where() const {
   return file_ + ": " + (pointer_.empty() ? "/" : pointer_);
 }

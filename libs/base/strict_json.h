@@ -23,6 +23,8 @@ class JsonValue {
   static JsonValue parse_file(const std::filesystem::path& path);
   // Parses text; `origin` stands for the file name in messages.
   static JsonValue parse_text(const std::string& text, const std::string& origin);
+  // A document that is made, not read.
+  static JsonValue of(nlohmann::ordered_json document, const std::string& origin);
 
   double number(double minimum = -std::numeric_limits<double>::max(),
                 double maximum = std::numeric_limits<double>::max()) const;
@@ -53,6 +55,7 @@ class JsonValue {
 
   // "scene.json: /lights/0/cone_deg"
   std::string where() const;
+  const std::string& origin() const { return file_; }
   const nlohmann::ordered_json& raw() const { return *value_; }
 
  private:

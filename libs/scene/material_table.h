@@ -1,16 +1,13 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "scene/mesh_file.h"
+#include "scene/instances.h"
 #include "scene/scene_spec.h"
 
 namespace vsgl::scene {
-
-using MeshFiles = std::map<std::filesystem::path, MeshFile>;
 
 // The materials of a scene: those of its mesh files that are in use, with the overrides of the scene JSON.
 class MaterialTable {

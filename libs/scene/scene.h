@@ -75,9 +75,10 @@ struct Scene {
 };
 
 // Reads a scene JSON (configs/schema/scene.schema.json) and everything it refers to; paths are relative to
-// the JSON's folder. Throws json_*, mesh_*, texture_unreadable, bad_material, bad_camera, bad_light,
-// file_not_found.
-Scene load_scene(const std::filesystem::path& json_path);
+// the JSON's folder; several frames of one animation are cheaper with SceneSequence. Throws json_*, mesh_*,
+// texture_unreadable, bad_material, bad_camera, bad_light, file_not_found, and out_of_range for a frame that
+// the scene does not have (without animation all but 0).
+Scene load_scene(const std::filesystem::path& json_path, int frame = 0);
 
 // All files that load_scene() reads, for provenance: the JSON first.
 std::vector<std::filesystem::path> scene_files(const std::filesystem::path& json_path);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/strict_json.h"
 #include "scene/scene.h"
 
 namespace vsgl::scene {
@@ -45,8 +46,9 @@ struct SceneSpec {
   int width = 640, height = 360;
 };
 
-// Throws json_*, wrong_schema, bad_material, bad_camera and bad_light.
-SceneSpec read_scene_spec(const std::filesystem::path& json_path);
+// From a scene JSON whose relative paths start at `folder`; its animation is not looked at. Throws json_*,
+// wrong_schema, bad_material, bad_camera and bad_light.
+SceneSpec read_scene_spec(const JsonValue& root, const std::filesystem::path& folder);
 
 // Completes an orthonormal frame about `forward` with an `up` near the given one. Returns false where they
 // are degenerate or parallel.

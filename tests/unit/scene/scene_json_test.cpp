@@ -314,7 +314,11 @@ TEST_F(SceneJson, SchemaNamesTheSameKeys) {
   full["materials"] = {{"paint", material}, {"*", {{"roughness", 0.5}}}};
   full["lights"] = {spot, sun};
   full["camera"]["up"] = {0, 1, 0};
+  const Json key{{"frame", 0}, {"value", {0, 0, 5}}};
+  const Json track{{"target", "/camera/position"}, {"interpolation", "step"}, {"keys", Json::array({key})}};
+  const Json animation{{"frame_rate_hz", 30}, {"frames", 2}, {"tracks", Json::array({track})}};
   full.update({{"anchor", {0, 0, 0}}, {"resolution", {8, 8}}, {"lumens_per_watt", 683}});
+  full["animation"] = animation;
   ASSERT_NO_THROW(scene::load_scene(folder.write_json("scene.json", full)));
 
   const auto together = [&](std::initializer_list<Json> objects, std::set<std::string> more = {}) {
@@ -328,8 +332,12 @@ TEST_F(SceneJson, SchemaNamesTheSameKeys) {
             together({material}, {"roughness", "phong_exponent"}));
   EXPECT_EQ(keys(parts.at("light").at("properties")), together({spot, sun}));
   EXPECT_EQ(keys(parts.at("camera").at("properties")), together({full["camera"]}, {"gltf_name"}));
-  for (const auto& part : {schema, parts.at("mesh"), parts.at("transform"), parts.at("material"),
-                           parts.at("light"), parts.at("camera")}) {
+  EXPECT_EQ(keys(parts.at("animation").at("properties")), keys(animation));
+  EXPECT_EQ(keys(parts.at("track").at("properties")), keys(track));
+  EXPECT_EQ(keys(parts.at("key").at("properties")), keys(key));
+  for (const auto& part :
+       {schema, parts.at("mesh"), parts.at("transform"), parts.at("material"), parts.at("light"),
+        parts.at("camera"), parts.at("animation"), parts.at("track"), parts.at("key")}) {
     EXPECT_EQ(part.at("additionalProperties"), false);
   }
 }
