@@ -1,66 +1,58 @@
-// ismap scene.json --lights lights.exr -o ism.exr: a shadow map for each virtual light, all in one atlas.
+// ismap scene.json --lights lights.exr [--gbuffer gbuffer.exr] -o ism.exr: what sees each virtual light.
 
-#include "base/methods.h"
+#include <optional>
+
 #include "base/tool.h"
-#include "stages/visibility/visibility.h"
+#include "scene/scene_input.h"
+#include "stages/visibility/options.h"
 
 namespace {
 
 struct Arguments {
-  std::filesystem::path scene, lights, output;
+  vsgl::scene::SceneInput scene;
+  std::filesystem::path lights, gbuffer, output;
   vsgl::VisibilityParams params;
-  bool no_pull_push = false;
 };
 
 void declare(vsgl::Tool& tool, Arguments& a) {
-  CLI::App& app = tool.app();
-  tool.input("scene", a.scene, "scene JSON")->required();
-  tool.input("--lights", a.lights, "virtual lights that get shadow maps")->required();
-  tool.output("-o,--output", a.output, "atlas of shadow maps to write")->required();
-  vsgl::add_methods(app, vsgl::visibility_methods(), a.params.method, "how to build the maps");
-  app.add_option("--points", a.params.points_per_light, "surface points a light")
-      ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--tile", a.params.tile, "texels a side of a map, a power of two")
-      ->check(CLI::Range(8, 512));
-  app.add_option("--splat-scale", a.params.splat_scale,
-                 "radius of a splatted disk, in radii of the disk that a point stands for")
-      ->check(CLI::Range(0.0, 4.0));
-  app.add_flag("--no-pull-push", a.no_pull_push, "leave the holes between splats open");
+  a.scene.declare(tool);
+  tool.input("--lights", a.lights, "virtual lights")->required();
+  tool.input("--gbuffer", a.gbuffer, "pixels to trace rays from (method raytraced)");
+  tool.output("-o,--output", a.output, "shadow maps or visibility bits to write")->required();
+  vsgl::add_options(tool.app(), a.params);
 }
 
-vsgl::scene::Scene read_scene(vsgl::Tool& tool, const std::filesystem::path& path, vsgl::Report& report) {
-  const vsgl::PhaseTimer timer(report, "read scene");
-  auto scene = vsgl::scene::load_scene(path);
-  for (const auto& file : vsgl::scene::scene_files(path))
-    if (file != path) tool.depends_on(file);
-  for (const auto& warning : scene.warnings) report.warn(warning);
-  return scene;
-}
-
-vsgl::Lights read_lights(const std::filesystem::path& path, vsgl::Report& report) {
-  const vsgl::PhaseTimer timer(report, "read lights");
-  return vsgl::read_lights(path);
+template <class Read>
+auto timed(vsgl::Report& report, const char* phase, Read read) {
+  const vsgl::PhaseTimer timer(report, phase);
+  return read();
 }
 
 vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
   a.params.seed = tool.common().seed;
-  a.params.pull_push = !a.no_pull_push;
   a.params.skip_powerless = !tool.common().no_skip;
-  const auto scene = read_scene(tool, a.scene, report);
-  const auto lights = read_lights(a.lights, report);
-  vsgl::gpu::Device device(
-      {.device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
-  report.count("device", device.info().name);
-  const auto maps = vsgl::build_shadow_maps(scene, lights, a.params, device, report);
+  const auto scene = a.scene.read(tool, report);
+  const auto lights = timed(report, "read lights", [&] { return vsgl::read_lights(a.lights); });
+  std::optional<vsgl::GBuffer> gbuffer;
+  if (!a.gbuffer.empty())
+    gbuffer = timed(report, "read gbuffer", [&] { return vsgl::read_gbuffer(a.gbuffer); });
+  std::optional<vsgl::gpu::Device> device;
+  if (vsgl::visibility_method(a.params.method).needs_device) {
+    device.emplace(vsgl::gpu::DeviceOptions{
+        .device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
+    report.count("device", device->info().name);
+  }
+  const auto visibility = vsgl::build_visibility(scene, lights, gbuffer ? &*gbuffer : nullptr, a.params,
+                                                 device ? &*device : nullptr, report);
   const vsgl::PhaseTimer timer(report, "write");
-  vsgl::write(outputs.add(a.output), maps, tool.provenance());
+  vsgl::write(outputs.add(a.output), visibility, tool.provenance());
   return vsgl::Exit::ok;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  vsgl::Tool tool("ismap", "builds shadow maps of all virtual lights");
+  vsgl::Tool tool("ismap", "finds out which pixels see each virtual light, by shadow maps or rays");
   Arguments arguments;
   declare(tool, arguments);
   return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {

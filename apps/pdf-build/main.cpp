@@ -3,10 +3,8 @@
 
 #include <optional>
 
-#include "base/methods.h"
 #include "base/tool.h"
-#include "interop/sampling.h"
-#include "stages/pdf/pdf.h"
+#include "stages/pdf/options.h"
 
 namespace {
 
@@ -18,19 +16,10 @@ struct Arguments {
 };
 
 void declare(vsgl::Tool& tool, Arguments& a) {
-  CLI::App& app = tool.app();
-  const CLI::Range counts(1, static_cast<int>(vsgl::interop::MAX_POINTS));
   tool.input("--rsm", a.rsm, "reflective shadow map")->required();
   tool.input("--gbuffer", a.gbuffer, "image that the light is to reach; the brsm methods need it");
   tool.output("-o,--output", a.output, "density to write")->required();
-  vsgl::add_methods(app, vsgl::pdf_methods(), a.params.method, "what the density follows");
-  app.add_option("--gbuffer-lights", a.params.gbuffer_lights, "brsm-vsgl: number of lights on the G-buffer")
-      ->check(counts);
-  app.add_option("--view-samples", a.params.view_samples,
-                 "brsm-vpl: number of pixels that each texel is tried on")
-      ->check(counts);
-  app.add_option("--defensive", a.params.defensive, "brsm: share of the flux density that is mixed in")
-      ->check(CLI::Range(0.0, 1.0));
+  vsgl::add_options(tool.app(), a.params);
 }
 
 vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {

@@ -3,9 +3,8 @@
 
 #include <optional>
 
-#include "base/methods.h"
 #include "base/tool.h"
-#include "stages/shading/shading.h"
+#include "stages/shading/options.h"
 
 namespace {
 
@@ -17,22 +16,12 @@ struct Arguments {
 };
 
 void declare(vsgl::Tool& tool, Arguments& a) {
-  CLI::App& app = tool.app();
   tool.input("--gbuffer", a.gbuffer, "pixels to shade")->required();
   tool.input("--lights", a.lights, "virtual lights")->required();
-  tool.input("--ism", a.ism, "shadow maps of the lights (default: no shadows)");
+  tool.input("--ism", a.ism, "shadow maps or visibility bits of the lights (default: no shadows)");
   tool.input("--rsm", a.rsm, "reflective shadow map: adds its direct light as a layer");
   tool.output("-o,--output", a.output, "radiance to write")->required();
-  vsgl::add_methods(app, vsgl::shading_methods(), a.params.method, "how lights are evaluated");
-  app.add_option("--clamp", a.params.clamp,
-                 "vpl: smallest distance, as a fraction of the scene's radius; 0: none")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option(
-         "--specular-lobe", a.params.specular_lobe,
-         "auto: the most accurate per normal distribution; asg: anisotropic SG, as the papers print it")
-      ->check(CLI::IsMember({"auto", "asg"}));
-  app.add_option("--cbr", a.params.cbr, "consistent bias reduction: threshold of the sharpness ratio; 0: off")
-      ->check(CLI::Range(0.0, 1.0));
+  vsgl::add_options(tool.app(), a.params);
 }
 
 vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
@@ -42,14 +31,15 @@ vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl:
   };
   const vsgl::GBuffer gbuffer = read("read gbuffer", vsgl::read_gbuffer, a.gbuffer);
   const vsgl::Lights lights = read("read lights", vsgl::read_lights, a.lights);
-  std::optional<vsgl::ShadowMaps> maps;
-  if (!a.ism.empty()) maps = read("read ism", vsgl::read_shadow_maps, a.ism);
+  std::optional<vsgl::Visibility> visibility;
+  if (!a.ism.empty()) visibility = read("read ism", vsgl::read_visibility, a.ism);
   a.params.skip = !tool.common().no_skip;
 
   vsgl::gpu::Device device(
       {.device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
   report.count("device", device.info().name);
-  vsgl::Indirect image = vsgl::shade(gbuffer, lights, maps ? &*maps : nullptr, a.params, device, report);
+  vsgl::Indirect image =
+      vsgl::shade(gbuffer, lights, visibility ? &*visibility : nullptr, a.params, device, report);
   if (!a.rsm.empty())
     vsgl::shade_direct(gbuffer, read("read rsm", vsgl::read_rsm, a.rsm), device, report, image);
 

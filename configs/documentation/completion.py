@@ -28,6 +28,8 @@ def branch(option):
     names = "|".join(name for name in (option.short, option.long) if name)
     if option.choices:
         action = f'mapfile -t COMPREPLY < <(compgen -W "{" ".join(option.choices)}" -- "$word"); return'
+    elif option.type == "FOLDER":
+        action = 'mapfile -t COMPREPLY < <(compgen -d -- "$word"); return'
     elif option.type == "FILE":
         action = 'mapfile -t COMPREPLY < <(compgen -f -- "$word"); return'
     else:

@@ -13,10 +13,10 @@ ImageSize read_image_size(const std::string& flag, const std::string& text, int 
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     const bool too_large = error == std::errc::result_out_of_range;
     if ((error != std::errc() && !too_large) || end != digits.data() + digits.size())
-      throw Error(ErrorCode::bad_value, flag + " " + text + ": is no size; give WIDTHxHEIGHT, as 640x360");
+      throw Error(ErrorCode::bad_value, flag + ": \"" + text + "\" is no size; give WIDTHxHEIGHT, as 640x360");
     if (too_large || value < 1 || value > limit)
       throw Error(ErrorCode::out_of_range,
-                  flag + " " + text + ": sides must be from 1 to " + std::to_string(limit));
+                  flag + ": " + text + ": sides must be from 1 to " + std::to_string(limit));
     return value;
   };
   const std::string_view view = text;

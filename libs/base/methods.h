@@ -8,7 +8,7 @@
 namespace vsgl {
 
 // Declares --method, one of a registry's rows (each with `name` and `summary`), and --list-methods, which
-// prints them one a line. `registry` must outlive the app.
+// prints them one a line and has no place in a file. `registry` must outlive the app.
 template <class Method>
 void add_methods(CLI::App& app, const std::vector<Method>& registry, std::string& method,
                  const std::string& help) {
@@ -24,7 +24,7 @@ void add_methods(CLI::App& app, const std::vector<Method>& registry, std::string
               row.summary;
     throw CLI::CallForVersion(text, 0);
   };
-  app.add_flag_callback("--list-methods", print, "print the methods and exit");
+  app.add_flag_callback("--list-methods", print, "print the methods and exit")->configurable(false);
 }
 
 }  // namespace vsgl

@@ -8,11 +8,18 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/usage.h"
 
 namespace vsgl::options {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// "kernel-scale", as CLI11 looks options of files up.
+std::string bare_name(const CLI::Option& option) {
+  const std::string name = long_name(option);
+  return name.substr(name.find_first_not_of('-'));
+}
 
 bool is_list(const CLI::Option& option) {
   return option.get_items_expected_max() > 1;
@@ -87,8 +94,7 @@ std::string long_name(const CLI::Option& option) {
 }
 
 std::string key_of(const CLI::Option& option) {
-  std::string key = long_name(option);
-  key.erase(0, key.find_first_not_of('-'));
+  std::string key = bare_name(option);
   std::replace(key.begin(), key.end(), '-', '_');
   return key;
 }
@@ -150,7 +156,10 @@ std::string JsonConfig::to_config(const CLI::App* app, bool, bool, std::string) 
   return resolved.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-std::vector<std::string> JsonConfig::arguments(const CLI::Option& option, const JsonValue& value) const {
+namespace {
+
+// The value as CLI11 takes it.
+std::vector<std::string> arguments(const CLI::Option& option, const JsonValue& value) {
   const Kind kind = kind_of(option);
   const bool repeatable = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
   const Json elements = is_list(option) ? value.raw() : Json::array({value.raw()});
@@ -162,38 +171,90 @@ std::vector<std::string> JsonConfig::arguments(const CLI::Option& option, const 
     if (!matches(kind, repeatable, item)) {
       throw Error(ErrorCode::bad_value, value.where() + ": expected " + wanted + ", got " + item.dump());
     }
-    std::string text = argument(item);
-    if (paths_.contains(&option)) {
-      const std::filesystem::path folder =
-          std::filesystem::path(app_.get_config_ptr()->as<std::string>()).parent_path();
-      text = (folder / text).lexically_normal().string();
-    }
-    arguments.push_back(text);
+    arguments.push_back(argument(item));
   }
   return arguments;
 }
 
+// The members of an object that differ from the defaults of the options that they name.
+std::vector<CLI::ConfigItem> members(const CLI::App& app, const JsonValue& object) {
+  std::vector<CLI::ConfigItem> given;
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->get_configurable()) continue;
+    const auto value = object.find(key_of(*option));
+    if (!value || (!value->raw().is_null() && value->raw() == default_of(*option))) continue;
+    CLI::ConfigItem item;
+    item.name = bare_name(*option);
+    item.inputs = arguments(*option, *value);
+    given.push_back(item);
+  }
+  object.finish();
+  return given;
+}
+
+// Whatever is wrong with a configuration is a usage error.
+Error usage_error(const Error& error) {
+  const bool unknown = error.code() == ErrorCode::json_unknown_key;
+  return Error(unknown ? ErrorCode::unknown_option : ErrorCode::bad_value, error.what());
+}
+
+// An error of CLI11's parsing, or of an option's own, at the member that it is about.
+Error located(const Error& error, const CLI::App& app, const JsonValue& object) {
+  const std::string message = error.what();
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string flag = long_name(*option) + ": ";
+    if (message.starts_with(flag))
+      return Error(error.code(), object.where() + "/" + key_of(*option) + ": " + message.substr(flag.size()));
+  }
+  return Error(error.code(), object.where() + ": " + message);
+}
+
+// Hands CLI11 the members of an object in place of a file.
+class Members : public CLI::Config {
+ public:
+  explicit Members(std::vector<CLI::ConfigItem> given) : items_(std::move(given)) {}
+  std::string to_config(const CLI::App*, bool, bool, std::string) const override { return ""; }
+  std::vector<CLI::ConfigItem> from_config(std::istream&) const override { return items_; }
+
+ private:
+  std::vector<CLI::ConfigItem> items_;
+};
+
+}  // namespace
+
 std::vector<CLI::ConfigItem> JsonConfig::from_config(std::istream& stream) const {
-  const std::string file = app_.get_config_ptr()->as<std::string>();
+  const std::filesystem::path file = app_.get_config_ptr()->as<std::string>();
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const auto is_path = [this](const CLI::ConfigItem& item) {
+    return std::any_of(paths_.begin(), paths_.end(),
+                       [&](const CLI::Option* option) { return bare_name(*option) == item.name; });
+  };
   try {
-    const JsonValue root = JsonValue::parse_text(text, file);
-    std::vector<CLI::ConfigItem> given;
-    for (const CLI::Option* option : app_.get_options()) {
-      if (!option->get_configurable()) continue;
-      const auto value = root.find(key_of(*option));
-      if (!value || (!value->raw().is_null() && value->raw() == default_of(*option))) continue;
-      CLI::ConfigItem item;
-      item.name = long_name(*option);
-      item.name.erase(0, item.name.find_first_not_of('-'));
-      item.inputs = arguments(*option, *value);
-      given.push_back(item);
+    auto given = members(app_, JsonValue::parse_text(text, file.string()));
+    for (CLI::ConfigItem& item : given) {
+      if (!is_path(item)) continue;
+      for (std::string& path : item.inputs) path = (file.parent_path() / path).lexically_normal().string();
     }
-    root.finish();
     return given;
-  } catch (const Error& error) {  // whatever is wrong with a configuration is a usage error
-    if (error.code() == ErrorCode::json_unknown_key) throw Error(ErrorCode::unknown_option, error.what());
-    throw Error(ErrorCode::bad_value, error.what());
+  } catch (const Error& error) {
+    throw usage_error(error);
+  }
+}
+
+void read_object(CLI::App& app, const JsonValue& object) {
+  try {
+    app.config_formatter(std::make_shared<Members>(members(app, object)));
+  } catch (const Error& error) {
+    throw usage_error(error);
+  }
+  try {
+    std::istringstream nothing;
+    app.parse_from_stream(nothing);
+    usage::check_values(app);
+  } catch (const CLI::ParseError& error) {
+    throw located(usage::translate(error, app), app, object);
+  } catch (const Error& error) {
+    throw located(error, app, object);
   }
 }
 

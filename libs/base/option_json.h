@@ -1,6 +1,6 @@
 #pragma once
 
-// The options of a tool as JSON: the form that --config reads and --dry-run prints. Internal to libs/base.
+// Options as JSON: the form that --config reads, --dry-run prints, and that parts of larger files have.
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -44,9 +44,13 @@ class JsonConfig : public CLI::Config {
   std::vector<CLI::ConfigItem> from_config(std::istream& stream) const override;
 
  private:
-  std::vector<std::string> arguments(const CLI::Option& option, const JsonValue& value) const;
   const CLI::App& app_;
   const std::set<const CLI::Option*>& paths_;
 };
+
+// Sets the options of `app` that are members of a JSON object, as --config would; the others keep their
+// defaults. Throws unknown_option, bad_value or out_of_range, naming file, JSON pointer and the nearest known
+// key.
+void read_object(CLI::App& app, const JsonValue& object);
 
 }  // namespace vsgl::options

@@ -125,22 +125,29 @@ void Tool::add_common_options() {
               verbose};
 }
 
-CLI::Option* Tool::add_path(std::vector<PathOption>& list, const std::string& flags, fs::path& path,
-                            const std::string& help) {
+CLI::Option* Tool::add_path(const std::string& flags, fs::path& path, const std::string& help) {
   CLI::Option* option = app_.add_option_function<std::string>(
       flags, [&path](const std::string& text) { path = text; }, help);
   option->type_name("FILE")->default_str(path.string());
-  list.emplace_back(option, &path);
   paths_.insert(option);
   return option;
 }
 
 CLI::Option* Tool::input(const std::string& flags, fs::path& path, const std::string& help) {
-  return add_path(inputs_, flags, path, help);
+  CLI::Option* option = add_path(flags, path, help);
+  inputs_.emplace_back(option, &path);
+  return option;
 }
 
 CLI::Option* Tool::output(const std::string& flags, fs::path& path, const std::string& help) {
-  CLI::Option* option = add_path(outputs_, flags, path, help);
+  CLI::Option* option = add_path(flags, path, help);
+  outputs_.emplace_back(option, &path);
+  neutral_.insert(option);
+  return option;
+}
+
+CLI::Option* Tool::output_folder(const std::string& flags, fs::path& path, const std::string& help) {
+  CLI::Option* option = add_path(flags, path, help)->type_name("FOLDER");
   neutral_.insert(option);
   return option;
 }

@@ -57,6 +57,12 @@ class Tool {
   // work begins.
   CLI::Option* output(const std::string& flags, std::filesystem::path& path, const std::string& help);
 
+  // A folder for outputs, which is there already; not part of the provenance.
+  CLI::Option* output_folder(const std::string& flags, std::filesystem::path& path, const std::string& help);
+
+  // Leaves an option, which does not shape the result, out of the command line of the provenance.
+  void keep_from_provenance(const CLI::Option* option) { neutral_.insert(option); }
+
   // A file that the inputs refer to (meshes and textures of a scene): hashed into the provenance after them.
   void depends_on(const std::filesystem::path& path);
 
@@ -72,8 +78,7 @@ class Tool {
   using PathOption = std::pair<CLI::Option*, std::filesystem::path*>;
 
   void add_common_options();
-  CLI::Option* add_path(std::vector<PathOption>& list, const std::string& flags, std::filesystem::path& path,
-                        const std::string& help);
+  CLI::Option* add_path(const std::string& flags, std::filesystem::path& path, const std::string& help);
   // False when --help, --version or --dry-run has been answered.
   bool parse(int argc, char** argv);
   void check_conflicts() const;
@@ -86,7 +91,7 @@ class Tool {
   CLI::App app_;
   CommonOptions common_;
   std::vector<PathOption> inputs_, outputs_;
-  std::set<const CLI::Option*> paths_;  // inputs and outputs
+  std::set<const CLI::Option*> paths_;  // inputs, outputs and folders
   std::set<const CLI::Option*>
       neutral_;  // do not shape the result: left out of the command line of the provenance
   std::vector<std::filesystem::path> dependencies_;

@@ -23,7 +23,6 @@
 namespace vsgl {
 namespace {
 
-constexpr int kMaxSize = 4096;
 constexpr std::uint32_t kGroup = 8;  // side of a work group of every shader here
 constexpr VkFormat kVisibilityFormat = VK_FORMAT_R32_UINT;
 
@@ -88,8 +87,14 @@ struct Baker::Impl {
 
 namespace {
 
+void report_size(const scene::Scene& scene, Report& report) {
+  report.count("triangles", scene.triangle_count());
+  report.count("instances", scene.instances.size());
+}
+
 DeviceScene upload(const scene::Scene& scene, gpu::Device& device, Report& report) {
   const PhaseTimer timer(report, "upload");
+  report_size(scene, report);
   return DeviceScene(scene, device);
 }
 
@@ -106,10 +111,7 @@ Baker::Impl::Impl(const scene::Scene& s, gpu::Device& d, Report& r)
       commands(d),
       bake(d, sizeof(interop::Bake)),
       clamped(d, sizeof(interop::uint)),
-      push{address_of(bake)} {
-  report.count("triangles", geometry.triangle_count());
-  report.count("instances", scene.instances.size());
-}
+      push{address_of(bake)} {}
 
 interop::Bake Baker::Impl::describe(const interop::View& view, const Frame& frame) const {
   interop::Bake job{};
@@ -157,6 +159,12 @@ Baker::Baker(const scene::Scene& scene, gpu::Device& device, Report& report)
     : impl_(std::make_unique<Impl>(scene, device, report)) {}
 Baker::~Baker() = default;
 
+void Baker::update() {
+  const PhaseTimer timer(impl_->report, "upload");
+  report_size(impl_->scene, impl_->report);
+  impl_->geometry.update(impl_->scene);
+}
+
 GBuffer Baker::gbuffer() {
   const interop::View view = camera_view(impl_->scene.camera, impl_->scene.radius);
   GBuffer out;
@@ -176,10 +184,10 @@ GBuffer Baker::gbuffer() {
 }
 
 Rsm Baker::rsm(const RsmParams& params) {
-  if (std::min(params.width, params.height) < 1 || std::max(params.width, params.height) > kMaxSize) {
+  if (std::min(params.width, params.height) < 1 || std::max(params.width, params.height) > kMaxRsmSize) {
     throw Error(ErrorCode::out_of_range, "RSM size " + std::to_string(params.width) + "x" +
                                              std::to_string(params.height) + ": must be 1 to " +
-                                             std::to_string(kMaxSize) + " a side");
+                                             std::to_string(kMaxRsmSize) + " a side");
   }
   const std::vector<LightView> lights = light_views(impl_->scene);
   Rsm out;

@@ -1,8 +1,9 @@
 #include "stages/rsm/device_scene.h"
 
-#include <string>
+#include <span>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "gpu/address.h"
 #include "math/interop_vec.h"
 #include "stages/rsm/mip_chain.h"
@@ -75,40 +76,48 @@ std::vector<interop::Material> all_materials(const scene::Scene& scene) {
   return materials;
 }
 
-std::vector<gpu::Buffer> upload_texels(const scene::Scene& scene, gpu::Device& device) {
-  std::vector<gpu::Buffer> buffers;
-  for (const scene::Texture& texture : scene.textures) {
-    buffers.push_back(gpu::Buffer::from(device, build_mip_chain(texture)));
-  }
-  return buffers;
-}
-
-std::vector<interop::Texture> all_textures(const scene::Scene& scene,
-                                           const std::vector<gpu::Buffer>& texels) {
-  std::vector<interop::Texture> textures;
-  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-    const scene::Texture& t = scene.textures[i];
-    textures.push_back({address_of(texels[i]), static_cast<interop::uint>(t.width),
-                        static_cast<interop::uint>(t.height),
-                        static_cast<interop::uint>(mip_levels(t.width, t.height)), t.srgb ? 1u : 0u});
-  }
-  return textures;
+// Of all that the mip chain is made from.
+std::string digest(const scene::Texture& texture) {
+  return sha256(std::as_bytes(std::span(texture.rgba))) + " " + std::to_string(texture.width) + "x" +
+         std::to_string(texture.height) + (texture.srgb ? " sRGB" : " linear");
 }
 
 }  // namespace
 
-DeviceScene::DeviceScene(const scene::Scene& scene, gpu::Device& device)
-    : triangle_count_(static_cast<std::uint32_t>(scene.triangle_count())),
-      vertices_(gpu::Buffer::from(device, all_vertices(scene))),
-      triangles_(gpu::Buffer::from(device, all_triangles(scene))),
-      instance_materials_(gpu::Buffer::from(device, instance_materials(scene))),
-      materials_(gpu::Buffer::from(device, all_materials(scene))),
-      texels_(upload_texels(scene, device)),
-      textures_(gpu::Buffer::from(device, all_textures(scene, texels_))) {}
+template <class T>
+void DeviceScene::upload(Part& part, const std::vector<T>& values) {
+  const std::string digest = sha256(std::as_bytes(std::span(values)));
+  if (part.digest == digest) return;
+  part = {digest, gpu::Buffer::from(device_, values)};
+}
+
+void DeviceScene::upload_texels(const scene::Scene& scene) {
+  texels_.resize(scene.textures.size());
+  std::vector<interop::Texture> textures;
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const scene::Texture& t = scene.textures[i];
+    const std::string wanted = digest(t);
+    if (texels_[i].digest != wanted) texels_[i] = {wanted, gpu::Buffer::from(device_, build_mip_chain(t))};
+    textures.push_back({address_of(*texels_[i].buffer), static_cast<interop::uint>(t.width),
+                        static_cast<interop::uint>(t.height),
+                        static_cast<interop::uint>(mip_levels(t.width, t.height)), t.srgb ? 1u : 0u});
+  }
+  upload(textures_, textures);
+}
+
+void DeviceScene::update(const scene::Scene& scene) {
+  triangle_count_ = static_cast<std::uint32_t>(scene.triangle_count());
+  upload(vertices_, all_vertices(scene));
+  upload(triangles_, all_triangles(scene));
+  upload(instance_materials_, instance_materials(scene));
+  upload(materials_, all_materials(scene));
+  upload_texels(scene);
+}
 
 interop::Geometry DeviceScene::geometry() const {
-  return {address_of(vertices_), address_of(triangles_), address_of(instance_materials_),
-          address_of(materials_), address_of(textures_)};
+  return {address_of(*vertices_.buffer), address_of(*triangles_.buffer),
+          address_of(*instance_materials_.buffer), address_of(*materials_.buffer),
+          address_of(*textures_.buffer)};
 }
 
 }  // namespace vsgl

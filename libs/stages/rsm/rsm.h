@@ -16,14 +16,16 @@ enum class NormalConvention {
   paper,       // as the papers have it: takes the true normal's place in both lobes, power unchanged
 };
 
+inline constexpr int kMaxRsmSize = 4096;  // texels a side of a layer
+
 struct RsmParams {
-  int width = 512, height = 512;  // texels of each layer, 1..4096; padded to a square power of two
+  int width = 512, height = 512;  // texels of each layer, 1..kMaxRsmSize; padded to a square power of two
   NormalConvention normals = NormalConvention::consistent;
 };
 
-// Rasterises a scene, which must outlive it, from camera and lights. Uploads it once; the device must be able
-// to draw. Throws mesh_invalid when an index points nowhere, bad_light for a degenerate light or two of one
-// name, memory, device_limit.
+// Rasterises a scene, which must outlive it, from camera and lights. The device must be able to draw. Throws
+// mesh_invalid when an index points nowhere, bad_light for a degenerate light or two of one name, memory,
+// device_limit.
 class Baker {
  public:
   Baker(const scene::Scene& scene, gpu::Device& device, Report& report);
@@ -31,6 +33,9 @@ class Baker {
   ~Baker();
   Baker(const Baker&) = delete;
   Baker& operator=(const Baker&) = delete;
+
+  // Takes notice that the scene has changed: uploads the parts of it that differ.
+  void update();
 
   // What the scene's camera sees, one point per pixel, at the camera's resolution.
   GBuffer gbuffer();

@@ -1,0 +1,27 @@
+#include "stages/lights/options.h"
+
+#include "base/methods.h"
+#include "math/sampling.h"
+
+namespace vsgl {
+
+void add_options(CLI::App& app, LightsParams& params) {
+  add_methods(app, lights_methods(), params.method, "how lights are made");
+  app.add_option("--count", params.count, "number of samples")
+      ->check(CLI::Range(1, static_cast<int>(interop::MAX_POINTS)));
+  app.add_option("--kernel-scale", params.kernel_scale,
+                 "K: a filter kernel holds K / count of the samples; larger is smoother")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--kernel-solver", params.kernel_solver,
+                 "fis-2016: newton, exact; bisection, 12 steps as the paper prints it")
+      ->check(CLI::IsMember({"newton", "bisection"}));
+  app.add_option(
+         "--power", params.power,
+         "fis-2016: conserved, powers add up to the RSM's; paper, as printed, without the common factor")
+      ->check(CLI::IsMember({"conserved", "paper"}));
+  app.add_option("--points", params.points,
+                 "sample points: lattice of a searched generator, fibonacci, or random")
+      ->check(CLI::IsMember(point_set_names()));
+}
+
+}  // namespace vsgl
