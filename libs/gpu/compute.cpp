@@ -107,16 +107,34 @@ void ComputePipeline::Impl::create_pipeline(std::span<const std::uint32_t> spirv
         "vkCreateComputePipelines");
 }
 
-ComputePipeline::ComputePipeline(Device& device, std::span<const std::uint32_t> spirv,
-                                 std::vector<Binding> bindings, std::size_t push_bytes,
-                                 const SpecializationConstants& constants)
-    : impl_(std::make_unique<Impl>(device, std::move(bindings), push_bytes)) {
-  impl_->create_layout();
-  impl_->create_pipeline(spirv, constants);
+namespace {
+
+// All that a compute pipeline depends on, each list behind its length.
+Device::PipelineKey key_of(std::span<const std::uint32_t> spirv, const std::vector<Binding>& bindings,
+                           std::size_t push_bytes, const SpecializationConstants& constants) {
+  Device::PipelineKey key{static_cast<std::uint32_t>(spirv.size())};
+  key.insert(key.end(), spirv.begin(), spirv.end());
+  key.push_back(static_cast<std::uint32_t>(bindings.size()));
+  for (const Binding binding : bindings) key.push_back(static_cast<std::uint32_t>(binding));
+  key.push_back(static_cast<std::uint32_t>(push_bytes));
+  for (const auto& [id, value] : constants) key.insert(key.end(), {id, value});
+  return key;
 }
 
-ComputePipeline::~ComputePipeline() = default;
-ComputePipeline::ComputePipeline(ComputePipeline&& other) noexcept = default;
+}  // namespace
+
+ComputePipeline::ComputePipeline(Device& device, std::span<const std::uint32_t> spirv,
+                                 std::vector<Binding> bindings, std::size_t push_bytes,
+                                 const SpecializationConstants& constants) {
+  const auto build = [&] {
+    auto impl = std::make_shared<Impl>(device, bindings, push_bytes);
+    impl->create_layout();
+    impl->create_pipeline(spirv, constants);
+    return impl;
+  };
+  impl_ = std::static_pointer_cast<const Impl>(
+      device.pipeline(key_of(spirv, bindings, push_bytes, constants), build));
+}
 
 struct Commands::Impl {
   static constexpr std::uint32_t kQueriesPerPool = 256;

@@ -22,18 +22,17 @@ enum class Binding { storage, uniform, texel_rgba32f, texel_r32ui };
 using SpecializationConstants =
     std::map<std::uint32_t, std::uint32_t>;  // constant_id -> 32-bit value (bit-cast floats)
 
-// A compute shader with the bindings 0..n-1 of set 0 and push constants of `push_bytes`.
+// A compute shader with the bindings 0..n-1 of set 0 and push constants of `push_bytes`. A handle: the device
+// builds each pipeline once, and keeps it.
 class ComputePipeline {
  public:
   ComputePipeline(Device& device, std::span<const std::uint32_t> spirv, std::vector<Binding> bindings,
                   std::size_t push_bytes = 0, const SpecializationConstants& constants = {});
-  ~ComputePipeline();
-  ComputePipeline(ComputePipeline&& other) noexcept;
 
  private:
   friend class Commands;
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<const Impl> impl_;
 };
 
 // Where a binding's data lies; size 0 means to the end of the buffer.

@@ -192,6 +192,7 @@ Device::~Device() {
 }
 
 void Device::destroy() {
+  pipelines_.clear();
   if (device_ != VK_NULL_HANDLE) {
     vkDestroyCommandPool(device_, pool_, nullptr);
     vkDestroyDevice(device_, nullptr);
@@ -327,6 +328,12 @@ int Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags wanted) c
     if (allowed && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return static_cast<int>(i);
   }
   return -1;
+}
+
+std::shared_ptr<void> Device::pipeline(const PipelineKey& key,
+                                       const std::function<std::shared_ptr<void>()>& build) {
+  const auto found = pipelines_.find(key);
+  return found != pipelines_.end() ? found->second : pipelines_.emplace(key, build()).first->second;
 }
 
 void Device::run(const std::function<void(VkCommandBuffer)>& record) {

@@ -4,7 +4,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace vsgl::gpu {
 
@@ -49,6 +52,12 @@ class Device {
   // Records commands, runs them and waits until their writes are visible to the host.
   void run(const std::function<void(VkCommandBuffer)>& record);
 
+  // A pipeline that lives as long as the device: built by `build` when `key`, which describes it completely,
+  // is asked for first, and shared from then on.
+  using PipelineKey = std::vector<std::uint32_t>;
+  std::shared_ptr<void> pipeline(const PipelineKey& key, const std::function<std::shared_ptr<void>()>& build);
+  std::size_t pipelines_built() const { return pipelines_.size(); }
+
  private:
   void create_instance(bool validation);
   void choose_physical(const std::string& wanted);
@@ -68,6 +77,7 @@ class Device {
   double timestamp_period_ = 0;
   std::uint32_t family_ = 0;
   DeviceInfo info_;
+  std::map<PipelineKey, std::shared_ptr<void>> pipelines_;
 };
 
 // Memory barrier: what was written before is visible to everything after, the host included.

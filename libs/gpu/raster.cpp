@@ -127,39 +127,69 @@ void RasterTarget::read(std::size_t colour, Buffer& buffer) {
   });
 }
 
+struct RasterPipeline::Impl {
+  Device& device;
+  std::vector<VkFormat> formats;
+  std::size_t push_bytes;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+
+  Impl(Device& d, std::vector<VkFormat> f, std::size_t p) : device(d), formats(std::move(f)), push_bytes(p) {}
+  ~Impl() {
+    vkDestroyPipeline(device.handle(), pipeline, nullptr);
+    vkDestroyPipelineLayout(device.handle(), layout, nullptr);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void create_layout();
+  void create_pipeline(std::span<const std::uint32_t> vertex_spirv,
+                       std::span<const std::uint32_t> fragment_spirv);
+};
+
+namespace {
+
+// All that a drawing pipeline depends on, each list behind its length.
+Device::PipelineKey key_of(std::span<const std::uint32_t> vertex_spirv,
+                           std::span<const std::uint32_t> fragment_spirv,
+                           const std::vector<VkFormat>& formats, std::size_t push_bytes) {
+  Device::PipelineKey key;
+  for (const auto code : {vertex_spirv, fragment_spirv}) {
+    key.push_back(static_cast<std::uint32_t>(code.size()));
+    key.insert(key.end(), code.begin(), code.end());
+  }
+  for (const VkFormat format : formats) key.push_back(static_cast<std::uint32_t>(format));
+  key.push_back(static_cast<std::uint32_t>(push_bytes));
+  return key;
+}
+
+}  // namespace
+
 RasterPipeline::RasterPipeline(Device& device, std::span<const std::uint32_t> vertex_spirv,
                                std::span<const std::uint32_t> fragment_spirv, std::vector<VkFormat> colours,
                                std::size_t push_bytes)
-    : device_(device), formats_(std::move(colours)), push_bytes_(push_bytes) {
-  try {
-    create_layout();
-    create_pipeline(vertex_spirv, fragment_spirv);
-  } catch (...) {
-    release();
-    throw;
-  }
+    : device_(device) {
+  const auto build = [&] {
+    auto impl = std::make_shared<Impl>(device, colours, push_bytes);
+    impl->create_layout();
+    impl->create_pipeline(vertex_spirv, fragment_spirv);
+    return impl;
+  };
+  impl_ = std::static_pointer_cast<const Impl>(
+      device.pipeline(key_of(vertex_spirv, fragment_spirv, colours, push_bytes), build));
 }
 
-RasterPipeline::~RasterPipeline() {
-  release();
-}
-
-void RasterPipeline::release() {
-  vkDestroyPipeline(device_.handle(), pipeline_, nullptr);
-  vkDestroyPipelineLayout(device_.handle(), layout_, nullptr);
-}
-
-void RasterPipeline::create_layout() {
-  const VkPushConstantRange push{kStages, 0, static_cast<std::uint32_t>(push_bytes_)};
+void RasterPipeline::Impl::create_layout() {
+  const VkPushConstantRange push{kStages, 0, static_cast<std::uint32_t>(push_bytes)};
   auto info = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
-  info.pushConstantRangeCount = push_bytes_ > 0 ? 1 : 0;
+  info.pushConstantRangeCount = push_bytes > 0 ? 1 : 0;
   info.pPushConstantRanges = &push;
-  check(vkCreatePipelineLayout(device_.handle(), &info, nullptr, &layout_), "vkCreatePipelineLayout");
+  check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
 }
 
-void RasterPipeline::create_pipeline(std::span<const std::uint32_t> vertex_spirv,
-                                     std::span<const std::uint32_t> fragment_spirv) {
-  const ShaderModule vertex(device_, vertex_spirv), fragment(device_, fragment_spirv);
+void RasterPipeline::Impl::create_pipeline(std::span<const std::uint32_t> vertex_spirv,
+                                           std::span<const std::uint32_t> fragment_spirv) {
+  const ShaderModule vertex(device, vertex_spirv), fragment(device, fragment_spirv);
   const std::array stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT),
                           fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT)};
   const auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(
@@ -187,7 +217,7 @@ void RasterPipeline::create_pipeline(std::span<const std::uint32_t> vertex_spirv
   VkPipelineColorBlendAttachmentState write_all{};
   write_all.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                              VK_COLOR_COMPONENT_A_BIT;
-  const std::vector<VkPipelineColorBlendAttachmentState> blends(formats_.size(), write_all);
+  const std::vector<VkPipelineColorBlendAttachmentState> blends(formats.size(), write_all);
   auto blend = vk_struct<VkPipelineColorBlendStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
   blend.attachmentCount = static_cast<std::uint32_t>(blends.size());
@@ -198,8 +228,8 @@ void RasterPipeline::create_pipeline(std::span<const std::uint32_t> vertex_spirv
   dynamic.dynamicStateCount = static_cast<std::uint32_t>(kDynamic.size());
   dynamic.pDynamicStates = kDynamic.data();
   auto rendering = vk_struct<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
-  rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats_.size());
-  rendering.pColorAttachmentFormats = formats_.data();
+  rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats.size());
+  rendering.pColorAttachmentFormats = formats.data();
   rendering.depthAttachmentFormat = kDepthFormat;
   auto info =
       vk_struct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering);
@@ -213,13 +243,14 @@ void RasterPipeline::create_pipeline(std::span<const std::uint32_t> vertex_spirv
   info.pDepthStencilState = &depth;
   info.pColorBlendState = &blend;
   info.pDynamicState = &dynamic;
-  info.layout = layout_;
-  check(vkCreateGraphicsPipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
+  info.layout = layout;
+  check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
         "vkCreateGraphicsPipelines");
 }
 
-void RasterPipeline::draw(RasterTarget& target, std::uint32_t vertices, std::span<const std::byte> push) {
-  if (target.formats() != formats_ || push.size() != push_bytes_) {
+void RasterPipeline::draw(RasterTarget& target, std::uint32_t vertices,
+                          std::span<const std::byte> push) const {
+  if (target.formats() != impl_->formats || push.size() != impl_->push_bytes) {
     throw Error(ErrorCode::internal,
                 "a drawing pipeline got attachments or push constants that it was not made for");
   }
@@ -227,7 +258,7 @@ void RasterPipeline::draw(RasterTarget& target, std::uint32_t vertices, std::spa
 }
 
 void RasterPipeline::record(VkCommandBuffer commands, RasterTarget& target, std::uint32_t vertices,
-                            std::span<const std::byte> push) {
+                            std::span<const std::byte> push) const {
   std::vector<VkRenderingAttachmentInfo> colours;
   for (const RasterTarget::Image& image : target.colours_) {
     transition(commands, image.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
@@ -251,9 +282,10 @@ void RasterPipeline::record(VkCommandBuffer commands, RasterTarget& target, std:
                               0, 1};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &area);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, impl_->pipeline);
     if (!push.empty()) {
-      vkCmdPushConstants(commands, layout_, kStages, 0, static_cast<std::uint32_t>(push.size()), push.data());
+      vkCmdPushConstants(commands, impl_->layout, kStages, 0, static_cast<std::uint32_t>(push.size()),
+                         push.data());
     }
     vkCmdDraw(commands, vertices, 1, 0, 0);
   }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -46,32 +47,24 @@ class RasterTarget {
 
 // A vertex and a fragment shader that draw triangles without vertex buffers or descriptors: they fetch what
 // they need by address (GLSL's buffer_reference) from push constants. Both faces are drawn. Depth is reversed
-// (0 is far) and tested with GREATER, so that of equal depths the first drawn wins.
+// (0 is far) and tested with GREATER, so that of equal depths the first drawn wins. A handle, as
+// ComputePipeline.
 class RasterPipeline {
  public:
   RasterPipeline(Device& device, std::span<const std::uint32_t> vertex_spirv,
                  std::span<const std::uint32_t> fragment_spirv, std::vector<VkFormat> colours,
                  std::size_t push_bytes);
-  ~RasterPipeline();
-  RasterPipeline(const RasterPipeline&) = delete;
-  RasterPipeline& operator=(const RasterPipeline&) = delete;
 
   // Clears all attachments to 0, draws `vertices` vertices and waits.
-  void draw(RasterTarget& target, std::uint32_t vertices, std::span<const std::byte> push);
+  void draw(RasterTarget& target, std::uint32_t vertices, std::span<const std::byte> push) const;
 
  private:
-  void create_layout();
-  void create_pipeline(std::span<const std::uint32_t> vertex_spirv,
-                       std::span<const std::uint32_t> fragment_spirv);
+  struct Impl;
   void record(VkCommandBuffer commands, RasterTarget& target, std::uint32_t vertices,
-              std::span<const std::byte> push);
-  void release();
+              std::span<const std::byte> push) const;
 
   Device& device_;
-  std::vector<VkFormat> formats_;
-  std::size_t push_bytes_;
-  VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  VkPipeline pipeline_ = VK_NULL_HANDLE;
+  std::shared_ptr<const Impl> impl_;
 };
 
 }  // namespace vsgl::gpu
