@@ -1,5 +1,6 @@
 #include "artifact/header.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -16,6 +17,13 @@ T in_range(const ExrFile& file, const std::string& name, T value, T minimum, T m
   message << file.path << ": header attribute '" << name << "' is " << value << ", must be " << minimum
           << ".." << maximum << "; write the file again with the tool that makes it";
   throw Error(ErrorCode::invalid_data, message.str());
+}
+
+// 'a' or 'b'
+std::string listed(const std::vector<std::string>& kinds) {
+  std::string text;
+  for (const std::string& kind : kinds) text += (text.empty() ? "'" : " or '") + kind + "'";
+  return text;
 }
 
 }  // namespace
@@ -46,23 +54,29 @@ void write_parts(const std::filesystem::path& path, std::vector<ExrPart> parts) 
   write_exr(path, ExrFile{std::move(parts), path.string()});
 }
 
-ExrFile read_artifact(const std::filesystem::path& path, const std::string& kind) {
+ExrFile read_artifact(const std::filesystem::path& path, const std::vector<std::string>& kinds) {
   ExrFile file = read_exr(path);
+  std::vector<std::string> allowed = kinds;
   for (const ExrPart& part : file.parts) {
     const auto it = part.attributes.find("vsgl.schema");
     const auto* schema = it == part.attributes.end() ? nullptr : std::get_if<std::string>(&it->second);
-    if (!schema || *schema != kind)
+    if (!schema || std::find(allowed.begin(), allowed.end(), *schema) == allowed.end())
       throw Error(ErrorCode::wrong_schema,
-                  file.path + ": is " + (schema ? "a '" + *schema + "' file" : "no file of ours") +
-                      ", but '" + kind + "' is needed; check which file goes with which flag");
+                  file.path + ": is " + (schema ? "a '" + *schema + "' file" : "no file of ours") + ", but " +
+                      listed(allowed) + " is needed; check which file goes with which flag");
+    allowed = {*schema};
     const int version = int_attribute(file, part, "vsgl.version");
     if (version != kSchemaVersion)
-      throw Error(ErrorCode::wrong_schema, file.path + ": '" + kind + "' version " + std::to_string(version) +
-                                               ", but this tool reads version " +
+      throw Error(ErrorCode::wrong_schema, file.path + ": '" + *schema + "' version " +
+                                               std::to_string(version) + ", but this tool reads version " +
                                                std::to_string(kSchemaVersion) +
                                                "; write the file again with tools of the same release");
   }
   return file;
+}
+
+std::string kind_of(const ExrFile& file) {
+  return string_attribute(file, file.parts.front(), "vsgl.schema");
 }
 
 const ExrPart& only_part(const ExrFile& file) {

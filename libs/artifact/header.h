@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/provenance.h"
 #include "image/exr.h"
@@ -19,8 +20,14 @@ ExrPart make_part(const std::string& name, const std::string& kind, const Proven
 // Writes the parts; messages name `path`.
 void write_parts(const std::filesystem::path& path, std::vector<ExrPart> parts);
 
-// Reads an artifact. Throws wrong_schema unless each part is of that kind and of version 1.
-ExrFile read_artifact(const std::filesystem::path& path, const std::string& kind);
+// Reads an artifact. Throws wrong_schema unless each part is of one of those kinds, all of the same, and of
+// version 1.
+ExrFile read_artifact(const std::filesystem::path& path, const std::vector<std::string>& kinds);
+inline ExrFile read_artifact(const std::filesystem::path& path, const std::string& kind) {
+  return read_artifact(path, std::vector{kind});
+}
+// The kind of a file that read_artifact() gave.
+std::string kind_of(const ExrFile& file);
 
 // The only part of a file that has one. Throws missing_part when there are several.
 const ExrPart& only_part(const ExrFile& file);

@@ -5,6 +5,7 @@
 #include "artifact/artifact.h"
 #include "artifact/fields.h"
 #include "artifact/header.h"
+#include "artifact/visibility.h"
 
 namespace vsgl {
 
@@ -49,9 +50,8 @@ void write(const std::filesystem::path& path, const ShadowMaps& maps, const Prov
   write_parts(path, {std::move(atlas), std::move(rows)});
 }
 
-ShadowMaps read_shadow_maps(const std::filesystem::path& path) {
+ShadowMaps artifact::unpack_shadow_maps(const ExrFile& file) {
   constexpr double kHuge = std::numeric_limits<double>::max();
-  const ExrFile file = read_artifact(path, "ism");
   const ExrPart& atlas = file.part("atlas");
   const ExrPart& rows = file.part("views");
   const int count = int_in(file, atlas, "ism.count", 0, 1 << 24);

@@ -25,7 +25,7 @@ struct ShadingLight {
   vec3 incident;       // towards the light source
   float cos_incident;  // incident . shading_normal, at least 1e-4
   uint ndf;            // NDF_* of the representative surface
-  uint index;          // of the light in lights.exr: its tile in the shadow atlas
+  uint index;          // of the light in lights.exr: its tile in the shadow atlas, its visibility bit
   float inverse_variance;
 };
 VSGL_CHECK_SIZE(ShadingLight, 140)
@@ -54,8 +54,14 @@ struct ShadingPush {
   float normal_offset;    // texels
   float slope_bias;       // texels per tangent
   float relative_bias;
+  uint first_word;  // of the block's lights: light `index` has bit index % 32 of word index / 32 - first_word
 };
-VSGL_CHECK_SIZE(ShadingPush, 52)
+VSGL_CHECK_SIZE(ShadingPush, 56)
+
+// Kinds of visibility.
+VSGL_CONST uint VISIBILITY_NONE = 0u;
+VSGL_CONST uint VISIBILITY_MAPS = 1u;
+VSGL_CONST uint VISIBILITY_BITS = 2u;
 
 // Where a light's shadow map looks: hemisphere about `axis`.
 struct ShadingView {
@@ -76,7 +82,7 @@ VSGL_CHECK_SIZE(DirectPush, 116)
 VSGL_CONST uint SHADING_RECEIVER_ID =
     0u;  // NDF_* of the receivers, NDF_NONE: diffuse only, NDF_ANY: read per pixel
 VSGL_CONST uint SHADING_EMISSION_ID = 1u;  // NDF_* of the lights, likewise
-VSGL_CONST uint SHADING_SHADOWS_ID = 2u;   // 1: look up shadow maps
+VSGL_CONST uint SHADING_SHADOWS_ID = 2u;   // VISIBILITY_*
 VSGL_CONST uint SHADING_CANCEL_ID = 3u;    // 1: consistent bias reduction
 VSGL_CONST uint SHADING_BUMPED_ID = 4u;    // 1: shading normals differ from geometric ones
 VSGL_CONST uint SHADING_ASG_ID = 5u;       // 1: anisotropic SG for the specular lobe, as the papers print it

@@ -8,7 +8,7 @@ layout(local_size_x = SHADING_GROUP) in;
 
 // As RECEIVER, what the scene and the parameters need.
 layout(constant_id = SHADING_EMISSION_ID) const uint EMISSION = NDF_NONE;
-layout(constant_id = SHADING_SHADOWS_ID) const uint SHADOWS = 0;
+layout(constant_id = SHADING_SHADOWS_ID) const uint SHADOWS = VISIBILITY_NONE;
 layout(constant_id = SHADING_CANCEL_ID) const uint CANCEL = 0;
 layout(constant_id = SHADING_ASG_ID) const uint ASG = 0;
 layout(constant_id = SHADING_PIXELS_ID) const uint PIXELS = 8;
@@ -18,6 +18,7 @@ layout(scalar, binding = 1) uniform LightBlock { ShadingLight lights[SHADING_BLO
 layout(scalar, binding = 2) buffer Results { ShadingSums results[]; };
 layout(scalar, binding = 3) readonly buffer Atlas { float inverse_distance[]; };
 layout(scalar, binding = 4) readonly buffer Views { ShadingView views[]; };
+layout(scalar, binding = 5) readonly buffer Bits { uint visibility_words[]; };  // word by word, of all receivers
 layout(scalar, push_constant) uniform Push { ShadingPush push; };
 
 // What one watt of each emission lobe becomes at the receiver, per unit of each reflectance, 1/(m^2 sr).

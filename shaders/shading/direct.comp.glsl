@@ -63,6 +63,6 @@ void main() {
   vec3 irradiance = view.intensity * (directional ? 1.0 : falloff / (place.z * place.z));
   float texel = 2.0 * view.extent_x / float(view.width) * (directional ? 1.0 : place.z);
   vec3 moved = s.position + s.normal * (NORMAL_OFFSET * texel * sqrt(max(1.0 - facing * facing, 0.0)));
-  vec2 reflection = exact_reflection(make_receiver(s, push.camera), u);
+  vec2 reflection = exact_reflection(make_receiver(i, s, push.camera), u);
   radiance[i] += lit_share(view_place(moved)) * irradiance * (s.diffuse * reflection.x + s.specular * reflection.y);
 }

@@ -5,7 +5,8 @@ void main() {
   Receiver receivers[PIXELS];
   Sums sums[PIXELS];
   [[unroll]] for (uint j = 0; j < PIXELS; ++j) {
-    receivers[j] = make_receiver(surfaces[min(first + j * SHADING_GROUP, push.receivers - 1)], push.camera);
+    uint place = min(first + j * SHADING_GROUP, push.receivers - 1);
+    receivers[j] = make_receiver(place, surfaces[place], push.camera);
     sums[j] = Sums(vec3(0.0), vec3(0.0), 0.0);
   }
   for (uint i = 0; i < push.lights; ++i) {

@@ -15,6 +15,7 @@ layout(constant_id = SHADING_BUMPED_ID) const uint BUMPED = 0;
 const float INVERSE_PI = 0.318309886;
 
 struct Receiver {
+  uint place;        // in the list of receivers
   vec3 position, normal, geometric;
   SpecularReceiver lobe;
   float slope_view;  // ggx_slope_cosine of the view
@@ -22,8 +23,9 @@ struct Receiver {
   vec3 luminance_diffuse, luminance_specular;  // luminance weights times reflectances
 };
 
-Receiver make_receiver(Surface s, vec3 camera) {
+Receiver make_receiver(uint place, Surface s, vec3 camera) {
   Receiver r;
+  r.place = place;
   r.position = s.position;
   r.normal = s.shading_normal;
   r.geometric = s.normal;

@@ -1,4 +1,4 @@
-// Visibility of a light from its shadow map.
+// Visibility of a light: from its shadow map, or exactly.
 #ifndef VSGL_SHADING_SHADOW_GLSL
 #define VSGL_SHADING_SHADOW_GLSL
 
@@ -14,7 +14,7 @@ float shadow_texel(uint corner, ivec2 texel) {
 // the light's hemisphere. [Ritschel 2008] with a hemi-octahedral tile.
 // Bias: the receiver is moved along its normal by `normal_offset` texels, less where it faces the light, and nearer by a relative part,
 // by `slope_bias` texels per tangent (at most 1.5: more leaks behind thin walls) and by `disk_bias`.
-float visibility(Receiver r, uint index) {
+float map_visibility(Receiver r, uint index) {
   ShadingView view = views[index];
   mat3 frame = frame_about(view.axis);
   vec3 v = r.position - view.origin;
@@ -40,6 +40,14 @@ float visibility(Receiver r, uint index) {
   float share = mix(mix(lit.x, lit.y, f.x), mix(lit.z, lit.w, f.x), f.y);
   // Both: the light's own surface, moved along its normal, would see itself.
   return min(u.z, w.z) > 0.0 ? share : 0.0;
+}
+
+// Share of the light that arrives at the receiver, 0..1.
+float visibility(Receiver r, uint index) {
+  if (SHADOWS == VISIBILITY_NONE) return 1.0;
+  if (SHADOWS == VISIBILITY_MAPS) return map_visibility(r, index);
+  uint word = visibility_words[(index / 32 - push.first_word) * push.receivers + r.place];
+  return float((word >> (index % 32)) & 1u);
 }
 
 #endif

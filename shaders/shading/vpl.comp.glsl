@@ -15,8 +15,7 @@ void add_light(Receiver r, ShadingLight light, inout Sums sums) {
   float d2 = dot(v, v);
   bool apart = d2 > 1e-18;
   vec3 u = v * inversesqrt(max(d2, 1e-18));
-  float lit = apart ? 1.0 : 0.0;
-  if (SHADOWS != 0) lit *= visibility(r, light.index);
+  float lit = apart ? visibility(r, light.index) : 0.0;
   float floored = lit / max(max(d2, push.clamp_distance2), 1e-18);
   Transfer t = exact_transfer(r, light, u, floored);
   add(sums, light, t);

@@ -57,7 +57,7 @@ void add_light(Receiver r, ShadingLight light, inout Sums sums) {
     incoming = incoming_light(u, distance2.x, light.variance, light.inverse_variance, light.specular_axis, light.specular_sharpness);
     from_specular = light.specular_scale * cosine.y * receive(r, incoming);
   }
-  float lit = SHADOWS == 0 ? 1.0 : visibility(r, light.index);
+  float lit = visibility(r, light.index);
   float kept = lit;
   if (BUMPED != 0) kept *= geometric_horizon(r, v, light.variance);
   Transfer exact = Transfer(vec2(0.0), vec2(0.0));

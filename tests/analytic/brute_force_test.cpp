@@ -57,7 +57,7 @@ Lights lights_of(const Baked& scene, const Pdf& pdf, const std::string& method, 
   LightsParams params;
   params.method = method;
   params.count = count;
-  return generate_lights(scene.rsm, pdf, params, device(), report);
+  return generate_lights(scene.rsm, &pdf, params, device(), report);
 }
 
 Agreement shaded(const Baked& scene, const Lights& lights, const ShadingParams& params) {

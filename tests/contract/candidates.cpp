@@ -74,7 +74,8 @@ void check_pdf(gpu::Device&, const std::filesystem::path& path) {
 
 Lights sample_lights(gpu::Device& device, const std::string& method) {
   Report report;
-  return generate_lights(rsm(), flux_pdf(rsm()), {.method = method, .count = 128}, device, report);
+  static const Pdf pdf = flux_pdf(rsm());
+  return generate_lights(rsm(), &pdf, {.method = method, .count = 128}, device, report);
 }
 
 void check_lights(gpu::Device&, const std::filesystem::path& path) {
@@ -85,16 +86,31 @@ void check_lights(gpu::Device&, const std::filesystem::path& path) {
 
 // ---- visibility
 
-ShadowMaps make_maps(gpu::Device& device, const Lights& lights, const std::string& method) {
+Visibility find_visibility(gpu::Device& device, const Lights& lights, const std::string& method) {
   Report report;
-  return build_shadow_maps(room_scene(), lights, {.method = method}, device, report);
+  return build_visibility(room_scene(), lights, &gbuffer(), {.method = method}, &device, report);
+}
+
+// Share of a light that arrives at a pixel.
+double visibility_of(const ShadowMaps& maps, std::size_t light, std::size_t pixel) {
+  const auto& receiver = gbuffer().pixels[pixel];
+  return shadow_visibility(maps, light, to_double(receiver.position), to_double(receiver.normal));
+}
+double visibility_of(const VisibilityBits& bits, std::size_t light, std::size_t pixel) {
+  return bits.visible(light, pixel) ? 1 : 0;
+}
+
+std::size_t light_count(const ShadowMaps& maps) {
+  return maps.views.size();
+}
+std::size_t light_count(const VisibilityBits& bits) {
+  return static_cast<std::size_t>(bits.lights);
 }
 
 // Against rays to every third pixel, weighted by the cosines at both ends.
-void check_maps(gpu::Device& device, const std::filesystem::path& path) {
-  const ShadowMaps maps = read_shadow_maps(path);
-  const Lights lights = sample_lights(device, "vpl");
-  ASSERT_EQ(maps.views.size(), lights.lights.size());
+template <class Kind>
+void check_kind(const Kind& visibility, const Lights& lights) {
+  ASSERT_EQ(light_count(visibility), lights.lights.size());
   double error = 0, weight = 0, hidden = 0;
   for (std::size_t light = 0; light < lights.lights.size(); ++light)
     for (std::size_t pixel = 0; pixel < gbuffer().pixels.size(); pixel += 3) {
@@ -105,12 +121,17 @@ void check_maps(gpu::Device& device, const std::filesystem::path& path) {
           std::max(dot(u, to_double(lights.lights[light].normal)), 0.0) * std::max(-dot(u, normal), 0.0);
       const bool visible =
           static_cast<double>(see(from + 1e-4 * u, u, false).depth) > 0.99 * length(to - from);
-      error += w * std::abs(shadow_visibility(maps, light, to, normal) - (visible ? 1 : 0));
+      error += w * std::abs(visibility_of(visibility, light, pixel) - (visible ? 1 : 0));
       hidden += visible ? 0 : w;
       weight += w;
     }
   EXPECT_GT(hidden / weight, 0.01);
   EXPECT_LT(error, 0.5 * hidden);  // without shadows they would be equal
+}
+
+void check_visibility(gpu::Device& device, const std::filesystem::path& path) {
+  const Lights lights = sample_lights(device, "vpl");
+  std::visit([&](const auto& kind) { check_kind(kind, lights); }, read_visibility(path));
 }
 
 // ---- shading
@@ -123,10 +144,10 @@ std::vector<double> pixel_luminances(const Indirect& image) {
   return out;
 }
 
-Indirect make_image(gpu::Device& device, const Lights& lights, const ShadowMaps* maps,
+Indirect make_image(gpu::Device& device, const Lights& lights, const Visibility* visibility,
                     const std::string& method) {
   Report report;
-  return shade(gbuffer(), lights, maps, {.method = method}, device, report);
+  return shade(gbuffer(), lights, visibility, {.method = method}, device, report);
 }
 
 // The power spread evenly over the room's surface and reflected by the mean albedo gives a mean radiance that
@@ -162,12 +183,12 @@ void append(std::vector<Candidate>& list, const std::string& stage, const std::s
 
 Indirect make_shadowed_image(gpu::Device& device, const std::string& method) {
   const Lights lights = sample_lights(device, "fis-2016");
-  const ShadowMaps maps = make_maps(device, lights, "ism");
+  const Visibility maps = find_visibility(device, lights, "ism");
   return make_image(device, lights, &maps, method);
 }
 
-ShadowMaps make_vpl_maps(gpu::Device& device, const std::string& method) {
-  return make_maps(device, sample_lights(device, "vpl"), method);
+Visibility vpl_visibility(gpu::Device& device, const std::string& method) {
+  return find_visibility(device, sample_lights(device, "vpl"), method);
 }
 
 }  // namespace
@@ -177,7 +198,7 @@ const std::vector<Candidate>& candidates() {
     std::vector<Candidate> out;
     append(out, "pdf", "pdf-build", pdf_methods(), build_density, check_pdf);
     append(out, "lights", "vsgl-gen", lights_methods(), sample_lights, check_lights);
-    append(out, "visibility", "ismap", visibility_methods(), make_vpl_maps, check_maps);
+    append(out, "visibility", "ismap", visibility_methods(), vpl_visibility, check_visibility);
     append(out, "shading", "shade", shading_methods(), make_shadowed_image, check_image);
     return out;
   }();
@@ -187,7 +208,7 @@ const std::vector<Candidate>& candidates() {
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list = {
       {"lights", [](gpu::Device& device, const std::string& method) { sample_lights(device, method); }},
-      {"visibility", [](gpu::Device& device, const std::string& method) { make_vpl_maps(device, method); }},
+      {"visibility", [](gpu::Device& device, const std::string& method) { vpl_visibility(device, method); }},
       {"shading",
        [](gpu::Device& device, const std::string& method) { make_shadowed_image(device, method); }},
   };

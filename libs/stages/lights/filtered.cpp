@@ -41,8 +41,11 @@ std::vector<interop::Light> sample_lights(const Rsm& rsm, const Pdf& pdf, const 
   kernel_params.seed = params.seed;
   std::vector<DensityPyramid> densities;
   for (const Pdf::Layer& layer : pdf.layers) densities.push_back({pdf.size, layer.pyramid});
-  const auto kernels = draw_kernels(densities, kernel_params, device, report);
+  return filter_lights(rsm, draw_kernels(densities, kernel_params, device, report), device, report);
+}
 
+std::vector<interop::Light> filter_lights(const Rsm& rsm, std::span<const interop::Kernel> kernels,
+                                          gpu::Device& device, Report& report) {
   std::vector<std::span<const interop::Moments>> moments;
   for (const RsmLayer& layer : rsm.layers) moments.emplace_back(layer.pyramid);
   const double deviation = footprint_floor * rsm.scene_radius;

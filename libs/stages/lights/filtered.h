@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "interop/sampling.h"
 #include "stages/lights/lights.h"
 
@@ -10,5 +12,9 @@ namespace vsgl {
 // sample.
 std::vector<interop::Light> sample_lights(const Rsm& rsm, const Pdf& pdf, const LightsParams& params,
                                           std::uint32_t rule, gpu::Device& device, Report& report);
+
+// The lights of given kernels, in their order, represented by the texels under the kernels' centres.
+std::vector<interop::Light> filter_lights(const Rsm& rsm, std::span<const interop::Kernel> kernels,
+                                          gpu::Device& device, Report& report);
 
 }  // namespace vsgl

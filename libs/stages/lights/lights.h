@@ -24,23 +24,27 @@ struct LightsParams {
   std::uint64_t seed = 0;
 };
 
-// Lights of `rsm` sampled by `pdf`. Samples without power give no light; the others keep the samples' order.
-// The same inputs give the same bytes for any number of threads. Throws bad_value, out_of_range, wrong_size
+// Lights of `rsm` sampled by `pdf`, which may be null where the method does not sample (see LightsMethod).
+// Samples without power give no light; the others keep the samples' order. The same inputs give the same
+// bytes for any number of threads. Throws bad_value, out_of_range, missing_option (no density), wrong_size
 // when the density is of another RSM, device_limit.
-Lights generate_lights(const Rsm& rsm, const Pdf& pdf, const LightsParams& params, gpu::Device& device,
+Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device& device,
                        Report& report);
 
 // What lights.json holds (configs/schema/lights.schema.json): parameters, statistics and, with `dump`, the
 // lights.
 nlohmann::ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& params, bool dump);
 
-// A way to generate lights. `run` may assume checked parameters and a density that is positive somewhere;
-// lights without power may be among the result.
+// A way to generate lights. `run` may assume checked parameters and, where it needs a density, one that is
+// positive somewhere; lights without power may be among the result.
 struct LightsMethod {
   std::string name;
   std::string summary;  // one line, for --list-methods
-  std::vector<interop::Light> (*run)(const Rsm&, const Pdf&, const LightsParams&, gpu::Device&, Report&);
+  bool needs_pdf = true;
+  std::vector<interop::Light> (*run)(const Rsm&, const Pdf*, const LightsParams&, gpu::Device&, Report&);
 };
 const std::vector<LightsMethod>& lights_methods();
+// The row of that name. Throws bad_value, listing those that are there.
+const LightsMethod& lights_method(const std::string& name);
 
 }  // namespace vsgl

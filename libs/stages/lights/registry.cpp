@@ -40,7 +40,31 @@ bool has_power(const interop::Light& light) {
   return d.x + d.y + d.z + s.x + s.y + s.z > 0;
 }
 
-const LightsMethod& find_method(const std::string& name) {
+bool is_dark(const Pdf& pdf) {
+  return std::all_of(pdf.layers.begin(), pdf.layers.end(),
+                     [](const Pdf::Layer& layer) { return layer.pyramid.back() <= 0; });
+}
+
+}  // namespace
+
+const std::vector<LightsMethod>& lights_methods() {
+  static const std::vector<LightsMethod> methods = {
+      {.name = "vpl", .summary = "virtual point lights: the sampled texels", .run = generate_vpl},
+      {.name = "fis-2014",
+       .summary = "kernels sized by the density at their centres",
+       .run = generate_fis_2014},
+      {.name = "fis-2016",
+       .summary = "kernels that hold equal shares of the samples",
+       .run = generate_fis_2016},
+      {.name = "texels",
+       .summary = "every texel that reflects, neither sampled nor filtered",
+       .needs_pdf = false,
+       .run = generate_texels},
+  };
+  return methods;
+}
+
+const LightsMethod& lights_method(const std::string& name) {
   const auto& methods = lights_methods();
   const auto found =
       std::find_if(methods.begin(), methods.end(), [&](const LightsMethod& m) { return m.name == name; });
@@ -50,36 +74,25 @@ const LightsMethod& find_method(const std::string& name) {
   throw Error(ErrorCode::bad_value, "method: \"" + name + "\" is none of " + names);
 }
 
-}  // namespace
-
-const std::vector<LightsMethod>& lights_methods() {
-  static const std::vector<LightsMethod> methods = {
-      {"vpl", "virtual point lights: the sampled texels", generate_vpl},
-      {"fis-2014", "kernels sized by the density at their centres", generate_fis_2014},
-      {"fis-2016", "kernels that hold equal shares of the samples", generate_fis_2016},
-  };
-  return methods;
-}
-
-Lights generate_lights(const Rsm& rsm, const Pdf& pdf, const LightsParams& params, gpu::Device& device,
+Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device& device,
                        Report& report) {
-  const LightsMethod& method = find_method(params.method);
+  const LightsMethod& method = lights_method(params.method);
   check_params(params);
-  check_density(rsm, pdf);
+  if (method.needs_pdf && !pdf)
+    throw Error(ErrorCode::missing_option, "pdf: method " + method.name + " needs one; give --pdf pdf.exr");
+  if (method.needs_pdf) check_density(rsm, *pdf);
   Lights out;
   out.method = method.name;
   out.anchor = rsm.anchor;
   out.scene_radius = rsm.scene_radius;
-  out.requested = params.count;
-  const bool dark = std::all_of(pdf.layers.begin(), pdf.layers.end(),
-                                [](const Pdf::Layer& layer) { return layer.pyramid.back() <= 0; });
-  if (dark)
+  if (method.needs_pdf && is_dark(*pdf))
     report.skipped("lights", "the density is zero everywhere: nothing emits");
   else
     out.lights = method.run(rsm, pdf, params, device, report);
+  out.requested = method.needs_pdf ? params.count : static_cast<int>(out.lights.size());
   std::erase_if(out.lights, [](const interop::Light& light) { return !has_power(light); });
   report.count("lights", out.lights.size());
-  report.count("dropped", static_cast<std::size_t>(params.count) - out.lights.size());
+  report.count("dropped", static_cast<std::size_t>(out.requested) - out.lights.size());
   return out;
 }
 

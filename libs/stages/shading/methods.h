@@ -8,11 +8,11 @@
 
 namespace vsgl {
 
-Indirect shade_vpl(const GBuffer&, const Lights&, const ShadowMaps*, const ShadingParams&, gpu::Device&,
+Indirect shade_vpl(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
                    Report&);
-Indirect shade_vsgl(const GBuffer&, const Lights&, const ShadowMaps*, const ShadingParams&, gpu::Device&,
+Indirect shade_vsgl(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
                     Report&);
-Indirect shade_vsgl_2014(const GBuffer&, const Lights&, const ShadowMaps*, const ShadingParams&, gpu::Device&,
+Indirect shade_vsgl_2014(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
                          Report&);
 
 // Throws invalid_data, naming `what`, when it has another anchor than the G-buffer.

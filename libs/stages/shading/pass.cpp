@@ -9,6 +9,7 @@
 #include "gpu/compute.h"
 #include "interop/model.h"
 #include "stages/shading/receivers.h"
+#include "stages/shading/visibility_buffers.h"
 
 namespace vsgl {
 namespace {
@@ -46,8 +47,8 @@ std::uint32_t pixels_per_invocation(std::uint32_t receiver, std::uint32_t emissi
 }
 
 void report_classes(const GBuffer& gbuffer, const std::vector<ReceiverList>& receivers,
-                    const std::vector<LightList>& lights, const ShadowMaps* maps, const ShadingKernel& kernel,
-                    Report& report) {
+                    const std::vector<LightList>& lights, const Visibility* visibility,
+                    const ShadingKernel& kernel, Report& report) {
   std::size_t seen = 0;
   for (const ReceiverList& list : receivers) {
     report.count(std::string("pixels_") + kNdfNames[list.ndf], list.pixels.size());
@@ -66,29 +67,19 @@ void report_classes(const GBuffer& gbuffer, const std::vector<ReceiverList>& rec
     report.skipped("specular reflection", "no pixel has a specular lobe");
   if (std::all_of(lights.begin(), lights.end(), is_diffuse))
     report.skipped("specular emission", "no light has a specular lobe");
-  if (!maps) report.skipped("visibility", "no shadow maps given");
+  if (!visibility) report.skipped("visibility", "none given");
 }
 
 // The device's side of one run.
 class Pass {
  public:
-  Pass(const GBuffer& gbuffer, const ShadowMaps* maps, const ShadingKernel& kernel, gpu::Device& device)
-      : kernel_(kernel),
-        device_(device),
-        shadows_(maps != nullptr),
-        atlas_(upload_atlas(maps)),
-        views_(upload_views(maps)) {
+  Pass(const GBuffer& gbuffer, const Visibility* visibility, const ShadingKernel& kernel, gpu::Device& device)
+      : kernel_(kernel), device_(device), visibility_(visibility, device) {
     push_.camera = {static_cast<float>(gbuffer.camera.x), static_cast<float>(gbuffer.camera.y),
                     static_cast<float>(gbuffer.camera.z)};
     push_.cancel_scale = kernel.threshold > 0 ? 2 / kernel.threshold : 0;
     push_.clamp_distance2 = kernel.clamp_distance2;
-    if (!maps) return;
-    push_.tile = static_cast<std::uint32_t>(maps->tile);
-    push_.columns = static_cast<std::uint32_t>(maps->columns);
-    push_.disk_bias = static_cast<float>(maps->bias_disk_radius / 4);
-    push_.normal_offset = static_cast<float>(maps->normal_offset);
-    push_.slope_bias = static_cast<float>(maps->slope_bias);
-    push_.relative_bias = static_cast<float>(maps->relative_bias);
+    visibility_.describe(push_);
   }
 
   // Sums of the pixels of `receivers` over all lights, in the fixed order of the lists.
@@ -100,26 +91,18 @@ class Pass {
     for (const LightList& list : lights) {
       const std::uint32_t pixels = pixels_per_invocation(receivers.ndf, list.ndf);
       const gpu::ComputePipeline pipeline = build(receivers, list, pixels);
-      for (std::size_t first = 0; first < list.lights.size(); first += block_lights()) {
-        const std::size_t count = std::min(block_lights(), list.lights.size() - first);
-        gpu::Buffer block = upload_block(std::span(list.lights).subspan(first, count));
-        dispatch(pipeline, surfaces, block, results, receivers.surfaces.size(), count, pixels, report);
+      std::span<const ShadingLight> rest = list.lights;
+      while (!rest.empty()) {
+        const auto block =
+            visibility_.leading(rest.first(std::min(block_lights(), rest.size())), receivers.pixels.size());
+        dispatch(pipeline, surfaces, block, receivers, results, pixels, report);
+        rest = rest.subspan(block.size());
       }
     }
     return results.download<ShadingSums>(receivers.surfaces.size());
   }
 
  private:
-  gpu::Buffer upload_atlas(const ShadowMaps* maps) const {
-    return maps ? gpu::Buffer::from(device_, maps->inverse_distance) : gpu::Buffer(device_, 0);
-  }
-  gpu::Buffer upload_views(const ShadowMaps* maps) const {
-    std::vector<interop::ShadingView> views;
-    if (maps)
-      for (const ShadowMaps::View& view : maps->views) views.push_back({view.origin, view.axis});
-    return gpu::Buffer::from(device_, views);
-  }
-
   std::size_t block_lights() const {
     return std::min<std::size_t>(interop::SHADING_BLOCK_LIGHTS,
                                  device_.limits().maxUniformBufferRange / sizeof(ShadingLight));
@@ -134,34 +117,38 @@ class Pass {
   gpu::ComputePipeline build(const ReceiverList& receivers, const LightList& lights,
                              std::uint32_t pixels) const {
     using gpu::Binding;
-    return gpu::ComputePipeline(
-        device_, kernel_.spirv,
-        {Binding::storage, Binding::uniform, Binding::storage, Binding::storage, Binding::storage},
-        sizeof(push_),
-        {{interop::SHADING_RECEIVER_ID, receivers.ndf},
-         {interop::SHADING_EMISSION_ID, lights.ndf},
-         {interop::SHADING_SHADOWS_ID, shadows_},
-         {interop::SHADING_CANCEL_ID, kernel_.threshold > 0},
-         {interop::SHADING_BUMPED_ID, receivers.bumped},
-         {interop::SHADING_ASG_ID, kernel_.asg},
-         {interop::SHADING_PIXELS_ID, pixels}});
+    return gpu::ComputePipeline(device_, kernel_.spirv,
+                                {Binding::storage, Binding::uniform, Binding::storage, Binding::storage,
+                                 Binding::storage, Binding::storage},
+                                sizeof(push_),
+                                {{interop::SHADING_RECEIVER_ID, receivers.ndf},
+                                 {interop::SHADING_EMISSION_ID, lights.ndf},
+                                 {interop::SHADING_SHADOWS_ID, visibility_.kind()},
+                                 {interop::SHADING_CANCEL_ID, kernel_.threshold > 0},
+                                 {interop::SHADING_BUMPED_ID, receivers.bumped},
+                                 {interop::SHADING_ASG_ID, kernel_.asg},
+                                 {interop::SHADING_PIXELS_ID, pixels}});
   }
 
-  void dispatch(const gpu::ComputePipeline& pipeline, gpu::Buffer& surfaces, gpu::Buffer& block,
-                gpu::Buffer& results, std::size_t receivers, std::size_t lights, std::uint32_t pixels,
-                Report& report) {
-    push_.receivers = static_cast<std::uint32_t>(receivers);
-    push_.lights = static_cast<std::uint32_t>(lights);
+  void dispatch(const gpu::ComputePipeline& pipeline, gpu::Buffer& surfaces,
+                std::span<const ShadingLight> lights, const ReceiverList& receivers, gpu::Buffer& results,
+                std::uint32_t pixels, Report& report) {
+    const std::size_t count = receivers.pixels.size();
+    push_.receivers = static_cast<std::uint32_t>(count);
+    push_.lights = static_cast<std::uint32_t>(lights.size());
+    push_.first_word = lights.front().index / 32;
+    gpu::Buffer block = upload_block(lights);
+    gpu::Buffer bits = visibility_.bits(lights, receivers.pixels);
     gpu::Commands commands(device_);
-    commands.dispatch(kPhase, pipeline, {surfaces, block, results, atlas_, views_}, push_,
-                      {gpu::groups_for(receivers, interop::SHADING_GROUP * pixels), 1, 1});
+    commands.dispatch(kPhase, pipeline,
+                      {surfaces, block, results, visibility_.atlas(), visibility_.views(), bits}, push_,
+                      {gpu::groups_for(count, interop::SHADING_GROUP * pixels), 1, 1});
     commands.submit(report);
   }
 
   const ShadingKernel& kernel_;
   gpu::Device& device_;
-  bool shadows_;
-  gpu::Buffer atlas_, views_;
+  VisibilityBuffers visibility_;
   interop::ShadingPush push_;
 };
 
@@ -174,13 +161,13 @@ double luminance(interop::vec3 c) {
 
 }  // namespace
 
-std::vector<ShadingSums> run_shading(const GBuffer& gbuffer, const ShadowMaps* maps,
+std::vector<ShadingSums> run_shading(const GBuffer& gbuffer, const Visibility* visibility,
                                      const ShadingKernel& kernel, gpu::Device& device, Report& report) {
   const std::vector<ReceiverList> receivers = sort_receivers(gbuffer, kernel.skip);
   const std::vector<LightList> lights = sort_lights(kernel.lights, kernel.skip);
-  report_classes(gbuffer, receivers, lights, maps, kernel, report);
+  report_classes(gbuffer, receivers, lights, visibility, kernel, report);
   PhaseTimer timer(report, kPhase);
-  Pass pass(gbuffer, maps, kernel, device);
+  Pass pass(gbuffer, visibility, kernel, device);
   std::vector<ShadingSums> image(gbuffer.pixels.size());
   for (const ReceiverList& list : receivers) {
     const std::vector<ShadingSums> sums = pass.run(list, lights, report);
@@ -220,12 +207,12 @@ std::vector<float> cancelled_share(const Indirect& indirect, const std::vector<S
 
 }  // namespace
 
-Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const ShadowMaps* maps,
+Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const Visibility* visibility,
                   const ShadingParams& params, gpu::Device& device, Report& report) {
   kernel.threshold = static_cast<float>(params.cbr);
   kernel.asg = params.specular_lobe == "asg";
   kernel.skip = params.skip;
-  const auto sums = run_shading(gbuffer, maps, kernel, device, report);
+  const auto sums = run_shading(gbuffer, visibility, kernel, device, report);
   Indirect out = compose(gbuffer, sums, !params.skip);
   if (params.cbr > 0) out.cancellation = cancelled_share(out, sums);
   return out;

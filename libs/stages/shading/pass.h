@@ -23,8 +23,8 @@ struct ShadingKernel {
   bool skip = true;
 };
 
-// Sums of each pixel of the G-buffer; zero where nothing is seen. `maps` may be null.
-std::vector<interop::ShadingSums> run_shading(const GBuffer& gbuffer, const ShadowMaps* maps,
+// Sums of each pixel of the G-buffer; zero where nothing is seen. `visibility` may be null.
+std::vector<interop::ShadingSums> run_shading(const GBuffer& gbuffer, const Visibility* visibility,
                                               const ShadingKernel& kernel, gpu::Device& device,
                                               Report& report);
 
@@ -35,7 +35,7 @@ double pixel_luminance(const Indirect& image, std::size_t pixel);
 
 // A VSGL method: runs `kernel` (shader and lights given) with the parameters and fills all layers but the
 // direct light.
-Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const ShadowMaps* maps,
+Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const Visibility* visibility,
                   const ShadingParams& params, gpu::Device& device, Report& report);
 
 }  // namespace vsgl

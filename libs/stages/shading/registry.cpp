@@ -16,6 +16,28 @@ void require_range(const char* name, double value, double maximum) {
                                              "; choose a value within");
 }
 
+void require_light_count(const std::string& what, std::size_t found, const Lights& lights) {
+  if (found != lights.lights.size())
+    throw Error(ErrorCode::wrong_size, what + ": " + std::to_string(found) + " for " +
+                                           std::to_string(lights.lights.size()) +
+                                           " lights; make them from these lights");
+}
+
+void check_visibility(const ShadowMaps& maps, const GBuffer& gbuffer, const Lights& lights) {
+  require_same_anchor("shadow maps", maps.anchor, gbuffer);
+  require_light_count("shadow maps", maps.views.size(), lights);
+}
+
+void check_visibility(const VisibilityBits& bits, const GBuffer& gbuffer, const Lights& lights) {
+  require_same_anchor("visibility bits", bits.anchor, gbuffer);
+  require_light_count("visibility bits", static_cast<std::size_t>(bits.lights), lights);
+  if (bits.width != gbuffer.width || bits.height != gbuffer.height)
+    throw Error(ErrorCode::wrong_size, "visibility bits: of " + std::to_string(bits.width) + "x" +
+                                           std::to_string(bits.height) + " pixels for a G-buffer of " +
+                                           std::to_string(gbuffer.width) + "x" +
+                                           std::to_string(gbuffer.height) + "; trace them for this G-buffer");
+}
+
 }  // namespace
 
 void require_same_anchor(const std::string& what, Vec3 anchor, const GBuffer& gbuffer) {
@@ -33,7 +55,7 @@ const std::vector<ShadingMethod>& shading_methods() {
   return methods;
 }
 
-Indirect shade(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps,
+Indirect shade(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                const ShadingParams& params, gpu::Device& device, Report& report) {
   const auto& methods = shading_methods();
   const auto method = std::find_if(methods.begin(), methods.end(),
@@ -45,14 +67,8 @@ Indirect shade(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* m
   require_range("clamp", params.clamp, 1);
   require_range("cbr", params.cbr, 1);
   require_same_anchor("lights", lights.anchor, gbuffer);
-  if (maps) {
-    require_same_anchor("shadow maps", maps->anchor, gbuffer);
-    if (maps->views.size() != lights.lights.size())
-      throw Error(ErrorCode::wrong_size, "shadow maps: " + std::to_string(maps->views.size()) + " for " +
-                                             std::to_string(lights.lights.size()) +
-                                             " lights; make them from these lights");
-  }
-  return method->run(gbuffer, lights, maps, params, device, report);
+  if (visibility) std::visit([&](const auto& v) { check_visibility(v, gbuffer, lights); }, *visibility);
+  return method->run(gbuffer, lights, visibility, params, device, report);
 }
 
 }  // namespace vsgl

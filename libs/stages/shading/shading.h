@@ -21,11 +21,12 @@ struct ShadingParams {
   bool skip = true;   // leave out what the scene does not need
 };
 
-// Radiance from `lights` at every pixel of `gbuffer`. `maps`: their shadow maps; null: no shadows. The same
-// inputs give the same bytes for any number of threads. Throws bad_value for an unknown method or lobe,
-// out_of_range, wrong_size when `maps` has another number of lights, invalid_data when the inputs' anchors
+// Radiance from `lights` at every pixel of `gbuffer`. `visibility`: of these lights; null: no shadows. The
+// same inputs give the same bytes for any number of threads. Throws bad_value for an unknown method or lobe,
+// out_of_range, wrong_size when `visibility` has another number of lights or
+// pixels, invalid_data when the inputs' anchors
 // differ, device_limit.
-Indirect shade(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps,
+Indirect shade(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                const ShadingParams& params, gpu::Device& device, Report& report);
 
 // Fills `out.direct`: radiance that the light sources of `rsm` cause at first hand, shadowed by the depths of
@@ -35,7 +36,7 @@ void shade_direct(const GBuffer& gbuffer, const Rsm& rsm, gpu::Device& device, R
 struct ShadingMethod {
   std::string name;
   std::string summary;
-  Indirect (*run)(const GBuffer&, const Lights&, const ShadowMaps*, const ShadingParams&, gpu::Device&,
+  Indirect (*run)(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
                   Report&);
 };
 const std::vector<ShadingMethod>& shading_methods();

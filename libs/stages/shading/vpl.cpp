@@ -20,7 +20,7 @@ double clamped_fraction(const Indirect& image, const std::vector<interop::Shadin
 
 }  // namespace
 
-Indirect shade_vpl(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps,
+Indirect shade_vpl(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                    const ShadingParams& params, gpu::Device& device, Report& report) {
   const double floor = params.clamp * gbuffer.scene_radius;
   ShadingKernel kernel;
@@ -28,7 +28,7 @@ Indirect shade_vpl(const GBuffer& gbuffer, const Lights& lights, const ShadowMap
   kernel.lights = pack_points(lights);
   kernel.clamp_distance2 = static_cast<float>(floor * floor);
   kernel.skip = params.skip;
-  const auto sums = run_shading(gbuffer, maps, kernel, device, report);
+  const auto sums = run_shading(gbuffer, visibility, kernel, device, report);
   Indirect out = compose(gbuffer, sums, !params.skip);
   report.count("clamp_distance_m", floor);
   report.count("clamped_fraction", clamped_fraction(out, sums));

@@ -7,9 +7,9 @@
 
 namespace vsgl {
 
-Indirect shade_vsgl(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps,
+Indirect shade_vsgl(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                     const ShadingParams& params, gpu::Device& device, Report& report) {
-  return shade_sg({vsgl_comp_spv, pack_vsgl(lights)}, gbuffer, maps, params, device, report);
+  return shade_sg({vsgl_comp_spv, pack_vsgl(lights)}, gbuffer, visibility, params, device, report);
 }
 
 }  // namespace vsgl

@@ -7,9 +7,9 @@
 
 namespace vsgl {
 
-Indirect shade_vsgl_2014(const GBuffer& gbuffer, const Lights& lights, const ShadowMaps* maps,
+Indirect shade_vsgl_2014(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                          const ShadingParams& params, gpu::Device& device, Report& report) {
-  return shade_sg({vsgl_2014_comp_spv, pack_vsgl_2014(lights)}, gbuffer, maps, params, device, report);
+  return shade_sg({vsgl_2014_comp_spv, pack_vsgl_2014(lights)}, gbuffer, visibility, params, device, report);
 }
 
 }  // namespace vsgl

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/error.h"
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
 #include "spirv/visibility/fill.comp.glsl.h"
@@ -50,6 +51,14 @@ constexpr std::size_t max_batch_views = 32768;
 
 std::size_t texels_of(int tile) {
   return static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile);
+}
+
+void check_atlas(const Lights& lights, const VisibilityParams& params) {
+  constexpr std::size_t max_atlas_texels = std::size_t{1} << 28;
+  if (lights.lights.size() * texels_of(params.tile) <= max_atlas_texels) return;
+  throw Error(ErrorCode::out_of_range,
+              "tile: " + std::to_string(lights.lights.size()) + " maps of " + std::to_string(params.tile) +
+                  " texels a side need more than 2^28 texels; use smaller tiles or fewer lights");
 }
 
 ShadowMaps empty_atlas(const Lights& lights, const VisibilityParams& params, const PointPool& pool) {
@@ -164,9 +173,14 @@ FillCounts render_maps(gpu::Device& device, const PointPool& pool, std::span<con
 
 }  // namespace
 
-ShadowMaps build_ism(const scene::Scene& scene, const Lights& lights, const VisibilityParams& params,
-                     gpu::Device& device, Report& report) {
+Visibility build_ism(const scene::Scene& scene, const Lights& lights, const GBuffer*,
+                     const VisibilityParams& params, gpu::Device* device, Report& report) {
+  check_atlas(lights, params);
   PointPool pool;
+  if (lights.lights.empty()) {
+    report.skipped("all shadow maps", "there are no lights");
+    return empty_atlas(lights, params, pool);
+  }
   {
     const PhaseTimer timer(report, "points");
     pool = sample_points(scene, lights.lights.size(), params.points_per_light, params.seed);
@@ -177,7 +191,7 @@ ShadowMaps build_ism(const scene::Scene& scene, const Lights& lights, const Visi
   const auto jobs = plan_views(lights, params, pool, maps, report);
   if (jobs.empty()) return maps;
   const PhaseTimer timer(report, "maps");
-  const auto counts = render_maps(device, pool, jobs, params, maps, report);
+  const auto counts = render_maps(*device, pool, jobs, params, maps, report);
   const auto texels = static_cast<double>(jobs.size() * texels_of(params.tile));
   if (params.pull_push) {
     report.count("filled_fraction", static_cast<double>(counts.filled) / texels);

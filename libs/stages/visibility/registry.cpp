@@ -8,8 +8,6 @@
 namespace vsgl {
 namespace {
 
-constexpr std::size_t max_atlas_texels = std::size_t{1} << 28;
-
 template <class T>
 void check_range(const char* name, T value, T low, T high) {
   if (value >= low && value <= high) return;
@@ -17,19 +15,13 @@ void check_range(const char* name, T value, T low, T high) {
                                            std::to_string(low) + ".." + std::to_string(high));
 }
 
-void check_params(const VisibilityParams& params, std::size_t light_count) {
+void check_params(const VisibilityParams& params) {
   check_range("points per light", params.points_per_light, 1, 1 << 20);
   check_range("tile", params.tile, 8, 512);
   check_range("splat scale", params.splat_scale, 0.0, 4.0);
   if (!is_power_of_two(params.tile))
     throw Error(ErrorCode::out_of_range,
                 "tile: " + std::to_string(params.tile) + " is not a power of two; try 64");
-  const std::size_t texels =
-      light_count * static_cast<std::size_t>(params.tile) * static_cast<std::size_t>(params.tile);
-  if (texels > max_atlas_texels)
-    throw Error(ErrorCode::out_of_range,
-                "tile: " + std::to_string(light_count) + " maps of " + std::to_string(params.tile) +
-                    " texels a side need more than 2^28 texels; use smaller tiles or fewer lights");
 }
 
 void check_lights(const scene::Scene& scene, const Lights& lights) {
@@ -44,7 +36,29 @@ void check_lights(const scene::Scene& scene, const Lights& lights) {
   }
 }
 
-const VisibilityMethod& find_method(const std::string& name) {
+void check_gbuffer(const VisibilityMethod& method, const GBuffer* gbuffer, const Lights& lights) {
+  if (!method.needs_gbuffer) return;
+  if (!gbuffer)
+    throw Error(ErrorCode::missing_option,
+                "gbuffer: method " + method.name + " needs one; give --gbuffer gbuffer.exr");
+  if (!(gbuffer->anchor == lights.anchor))
+    throw Error(ErrorCode::invalid_data,
+                "gbuffer: its anchor is not the lights'; bake it from the same scene");
+}
+
+}  // namespace
+
+const std::vector<VisibilityMethod>& visibility_methods() {
+  static const std::vector<VisibilityMethod> methods = {
+      {.name = "ism",
+       .summary = "imperfect shadow maps: surface points splatted into a hemisphere per light",
+       .needs_device = true,
+       .run = visibility::build_ism},
+  };
+  return methods;
+}
+
+const VisibilityMethod& visibility_method(const std::string& name) {
   const auto& methods = visibility_methods();
   const auto found =
       std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
@@ -54,29 +68,15 @@ const VisibilityMethod& find_method(const std::string& name) {
   throw Error(ErrorCode::bad_value, "method: \"" + name + "\" is none of " + names);
 }
 
-}  // namespace
-
-const std::vector<VisibilityMethod>& visibility_methods() {
-  static const std::vector<VisibilityMethod> methods = {
-      {"ism", "imperfect shadow maps: surface points splatted into a hemisphere per light",
-       visibility::build_ism},
-  };
-  return methods;
-}
-
-ShadowMaps build_shadow_maps(const scene::Scene& scene, const Lights& lights, const VisibilityParams& params,
-                             gpu::Device& device, Report& report) {
-  const auto& method = find_method(params.method);
-  check_params(params, lights.lights.size());
+Visibility build_visibility(const scene::Scene& scene, const Lights& lights, const GBuffer* gbuffer,
+                            const VisibilityParams& params, gpu::Device* device, Report& report) {
+  const auto& method = visibility_method(params.method);
+  check_params(params);
   check_lights(scene, lights);
-  if (lights.lights.empty()) {
-    report.skipped("all shadow maps", "there are no lights");
-    ShadowMaps none;
-    none.tile = params.tile;
-    none.anchor = lights.anchor;
-    return none;
-  }
-  return method.run(scene, lights, params, device, report);
+  check_gbuffer(method, gbuffer, lights);
+  if (method.needs_device && !device)
+    throw Error(ErrorCode::internal, "build_visibility: method " + method.name + " without a device");
+  return method.run(scene, lights, gbuffer, params, device, report);
 }
 
 }  // namespace vsgl

@@ -137,8 +137,9 @@ TEST(Shading, RefusesInputsOfDifferentScenes) {
   ShadowMaps maps;
   maps.columns = 1;
   maps.views.resize(1);
+  const Visibility visibility = maps;
   test::expect_error(ErrorCode::wrong_size, {"shadow maps", "12 lights"},
-                     [&] { test::shade_box(gbuffer, lights, {}, &maps); });
+                     [&] { test::shade_box(gbuffer, lights, {}, &visibility); });
 }
 
 }  // namespace

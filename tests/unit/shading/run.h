@@ -13,9 +13,9 @@ inline gpu::Device& shared_device() {
 }
 
 inline Indirect shade_box(const GBuffer& gbuffer, const Lights& lights, const ShadingParams& params,
-                          const ShadowMaps* maps = nullptr) {
+                          const Visibility* visibility = nullptr) {
   Report report;
-  return shade(gbuffer, lights, maps, params, shared_device(), report);
+  return shade(gbuffer, lights, visibility, params, shared_device(), report);
 }
 
 inline Vec3 specular_of(const Indirect& image, std::size_t i) {

@@ -11,7 +11,7 @@ constexpr int kTile = 64;
 
 // Tiles of two lights; the second one's map holds a square of half width `half` at height `height` above its
 // origin.
-ShadowMaps square_occluder(const Lights& lights, Vec3 axis, double height, double half) {
+Visibility square_occluder(const Lights& lights, Vec3 axis, double height, double half) {
   ShadowMaps maps;
   maps.tile = kTile;
   maps.columns = static_cast<int>(lights.lights.size());
@@ -66,7 +66,7 @@ struct Ceiling {
 TEST(Shadow, CoversTheProjectedOccluder) {
   constexpr int size = 64;
   const Ceiling scene(size);
-  const ShadowMaps maps = square_occluder(scene.lights, {0, 1, 0}, 0.5, 0.2);
+  const Visibility maps = square_occluder(scene.lights, {0, 1, 0}, 0.5, 0.2);
   for (const char* method : {"vpl", "vsgl", "vsgl-2014"}) {
     SCOPED_TRACE(method);
     const ShadingParams params{.method = method};
@@ -89,7 +89,7 @@ TEST(Shadow, CoversTheProjectedOccluder) {
 
 TEST(Shadow, NothingIsLitBehindTheLight) {
   const Ceiling scene(8);
-  const ShadowMaps behind = square_occluder(scene.lights, {0, -1, 0}, 0.5, 0.0);
+  const Visibility behind = square_occluder(scene.lights, {0, -1, 0}, 0.5, 0.0);
   for (const auto& radiance : test::shade_box(scene.gbuffer, scene.lights, {}, &behind).diffuse)
     EXPECT_EQ(radiance.x, 0.0f);
 }
@@ -97,13 +97,14 @@ TEST(Shadow, NothingIsLitBehindTheLight) {
 // A map that holds the ceiling itself: biases keep it lit.
 TEST(Shadow, ASurfaceDoesNotShadowItself) {
   const Ceiling scene(32);
-  ShadowMaps maps = square_occluder(scene.lights, {0, 1, 0}, 1.0, 100);
+  Visibility maps = square_occluder(scene.lights, {0, 1, 0}, 1.0, 100);
   const auto image = [&] { return test::shade_box(scene.gbuffer, scene.lights, {}, &maps).diffuse; };
   const auto lit = test::shade_box(scene.gbuffer, scene.lights, {}).diffuse;
   const auto shadowed = image();
   for (std::size_t i = 0; i < lit.size(); ++i) EXPECT_NEAR(shadowed[i].x / lit[i].x, 1.0f, 1e-6f) << i;
 
-  maps.normal_offset = maps.slope_bias = maps.relative_bias = 0;
+  auto& biases = std::get<ShadowMaps>(maps);
+  biases.normal_offset = biases.slope_bias = biases.relative_bias = 0;
   const auto unbiased = image();
   int dark = 0;
   for (std::size_t i = 0; i < lit.size(); ++i) dark += unbiased[i].x < 0.9f * lit[i].x;

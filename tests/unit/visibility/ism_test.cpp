@@ -21,10 +21,15 @@ gpu::Device& device() {
   return instance;
 }
 
+ShadowMaps shadow_maps(const scene::Scene& scene, const Lights& lights, const VisibilityParams& params,
+                       gpu::Device& on, Report& report) {
+  return std::get<ShadowMaps>(build_visibility(scene, lights, nullptr, params, &on, report));
+}
+
 ShadowMaps build(const scene::Scene& scene, const std::vector<interop::Light>& lights,
                  const VisibilityParams& params = {}) {
   Report report;
-  return build_shadow_maps(scene, make_lights(scene, lights), params, device(), report);
+  return shadow_maps(scene, make_lights(scene, lights), params, device(), report);
 }
 
 const Vec3 room_low{-1, -1, 0}, room_high{1, 1, 2};
@@ -240,7 +245,7 @@ TEST(Ism, TilesAreApartAndPowerlessLightsAreSkipped) {
   auto lights = wall_lights(9, 1e-3);
   lights[4].power_diffuse = {0, 0, 0};
   Report report;
-  const auto maps = build_shadow_maps(room(), make_lights(room(), lights), {}, device(), report);
+  const auto maps = shadow_maps(room(), make_lights(room(), lights), {}, device(), report);
   ASSERT_EQ(maps.columns, 3);
   const auto tile_sum = [](const ShadowMaps& m, int column, int row) {
     double sum = 0;
@@ -285,7 +290,7 @@ TEST(Ism, SameBytesOnAnyThreadCountAndEveryRun) {
     omp_set_num_threads(threads);
     gpu::Device own({.threads = threads, .compute_only = true});
     Report report;
-    return build_shadow_maps(scene, make_lights(scene, lights), {}, own, report);
+    return shadow_maps(scene, make_lights(scene, lights), {}, own, report);
   };
   const auto first = build_with(1);
   for (const int threads : {2, 1, 2}) {
@@ -328,7 +333,7 @@ TEST(Ism, CurvedAndOffCentreClustersAreCounted) {
   lights[0].normal_deficit = 0.8f;
   lights[1].position.z += 0.5f;
   Report report;
-  build_shadow_maps(room(), make_lights(room(), lights), {}, device(), report);
+  shadow_maps(room(), make_lights(room(), lights), {}, device(), report);
   EXPECT_EQ(report.to_json()["counts"]["curved_clusters"], 1);
   EXPECT_EQ(report.to_json()["counts"]["off_centre_origins"], 1);
 }
@@ -337,7 +342,7 @@ TEST(Ism, CurvedAndOffCentreClustersAreCounted) {
 ErrorCode error_of(const VisibilityParams& params, const Lights& lights) {
   Report report;
   try {
-    build_shadow_maps(room(), lights, params, device(), report);
+    shadow_maps(room(), lights, params, device(), report);
   } catch (const Error& error) {
     return error.code();
   }

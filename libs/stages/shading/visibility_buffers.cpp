@@ -1,0 +1,69 @@
+#include "stages/shading/visibility_buffers.h"
+
+#include "base/error.h"
+
+namespace vsgl {
+namespace {
+
+using interop::ShadingLight;
+
+std::uint32_t word_of(const ShadingLight& light) {
+  return light.index / 32;
+}
+
+gpu::Buffer upload_views(const ShadowMaps* maps, gpu::Device& device) {
+  std::vector<interop::ShadingView> views;
+  if (maps)
+    for (const ShadowMaps::View& view : maps->views) views.push_back({view.origin, view.axis});
+  return gpu::Buffer::from(device, views);
+}
+
+}  // namespace
+
+VisibilityBuffers::VisibilityBuffers(const Visibility* visibility, gpu::Device& device)
+    : device_(device),
+      maps_(std::get_if<ShadowMaps>(visibility)),
+      bits_(std::get_if<VisibilityBits>(visibility)),
+      atlas_(maps_ ? gpu::Buffer::from(device, maps_->inverse_distance) : gpu::Buffer(device, 0)),
+      views_(upload_views(maps_, device)) {
+  kind_ = maps_ ? interop::VISIBILITY_MAPS : bits_ ? interop::VISIBILITY_BITS : interop::VISIBILITY_NONE;
+}
+
+void VisibilityBuffers::describe(interop::ShadingPush& push) const {
+  if (!maps_) return;
+  push.tile = static_cast<std::uint32_t>(maps_->tile);
+  push.columns = static_cast<std::uint32_t>(maps_->columns);
+  push.disk_bias = static_cast<float>(maps_->bias_disk_radius / 4);
+  push.normal_offset = static_cast<float>(maps_->normal_offset);
+  push.slope_bias = static_cast<float>(maps_->slope_bias);
+  push.relative_bias = static_cast<float>(maps_->relative_bias);
+}
+
+std::span<const ShadingLight> VisibilityBuffers::leading(std::span<const ShadingLight> lights,
+                                                         std::size_t receivers) const {
+  if (!bits_) return lights;
+  const std::size_t words = device_.limits().maxStorageBufferRange / sizeof(std::uint32_t) / receivers;
+  if (words == 0)
+    throw Error(ErrorCode::device_limit, "visibility bits of " + std::to_string(receivers) +
+                                             " pixels exceed the device's buffers of " +
+                                             std::to_string(device_.limits().maxStorageBufferRange) +
+                                             " bytes; use a smaller image or shadow maps");
+  std::size_t count = lights.size();
+  while (word_of(lights[count - 1]) - word_of(lights[0]) >= words) --count;
+  return lights.first(count);
+}
+
+gpu::Buffer VisibilityBuffers::bits(std::span<const ShadingLight> lights,
+                                    std::span<const std::uint32_t> pixels) const {
+  if (!bits_) return gpu::Buffer(device_, 0);
+  const std::size_t image = static_cast<std::size_t>(bits_->width) * static_cast<std::size_t>(bits_->height);
+  const std::size_t first = word_of(lights.front()), words = word_of(lights.back()) - first + 1;
+  std::vector<std::uint32_t> gathered(words * pixels.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t w = 0; w < words; ++w)
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      gathered[w * pixels.size() + i] = bits_->words[(first + w) * image + pixels[i]];
+  return gpu::Buffer::from(device_, gathered);
+}
+
+}  // namespace vsgl
