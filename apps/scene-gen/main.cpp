@@ -56,6 +56,10 @@ void declare(vsgl::Tool& tool, Arguments& a) {
   app.add_option("--mesh-material", a.options.mesh_material, "of --mesh: diffuse, glossy or metal")
       ->check(CLI::IsMember({"diffuse", "glossy", "metal"}))
       ->capture_default_str();
+  app.add_option("--animate", a.options.animate, "what moves: none, light, camera or object")
+      ->check(CLI::IsMember({"none", "light", "camera", "object"}));
+  app.add_option("--frames", a.options.frames, "frames of the animation (default: 64)")
+      ->check(CLI::Range(2, 10000));
   app.add_flag_callback(
       "--list-scenes", [] { throw CLI::CallForVersion(list_of_scenes(), 0); }, "print the scenes and exit");
 }

@@ -23,6 +23,8 @@ struct GenerateOptions {
   std::filesystem::path texture_dir;  // atrium: of glmark2's textures; empty: made
   std::filesystem::path mesh;         // cornell: stands in the box instead of the blocks
   std::string mesh_material = "diffuse";
+  std::string animate = "none";  // or light, camera, object: what moves
+  std::optional<int> frames;     // of the animation, 2..10000
 };
 
 struct GeneratorInfo {

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/strict_json.h"
 #include "scene/mesh_file.h"
+#include "scene/procedural/animate.h"
 #include "scene/procedural/generators.h"
 #include "scene/procedural/glb.h"
 
@@ -66,6 +67,12 @@ void check(const std::string& name, const GenerateOptions& options) {
   }
   if (!options.texture_dir.empty() && name != "atrium") {
     throw Error(ErrorCode::conflicting_options, "--texture-dir: only the scene \"atrium\" has textures");
+  }
+  if (options.frames && options.animate == "none") {
+    throw Error(ErrorCode::conflicting_options, "--frames: only an animated scene has some; give --animate");
+  }
+  if (options.frames && !(*options.frames >= 2 && *options.frames <= 10000)) {
+    fail("--frames: must be from 2 to 10000");
   }
   if (!options.mesh.empty() && name != "cornell") {
     throw Error(ErrorCode::conflicting_options, "--mesh: only the scene \"cornell\" takes one");
@@ -214,8 +221,11 @@ GeneratedScene generate_scene(const std::string& name, const GenerateOptions& op
       if (!image->empty()) *image = stem + "-" + *image;
   GeneratedScene out;
   out.triangles = model.triangle_count();
-  out.files.push_back({stem + ".json", scene_json(model, options, folder, stem).dump(2) + "\n"});
+  Json scene = scene_json(model, options, folder, stem);
+  const std::vector<GeneratedFile> moving = animate(scene, model, options, stem);
+  out.files.push_back({stem + ".json", scene.dump(2) + "\n"});
   out.files.push_back({stem + ".glb", write_glb(model, options.offset, options.scale)});
+  out.files.insert(out.files.end(), moving.begin(), moving.end());
   for (ModelImage& image : model.images) out.files.push_back({std::move(image.name), std::move(image.bytes)});
   return out;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "interop/model.h"
+#include "scene/scene_sequence.h"
 #include "scene_fixture.h"
 
 namespace vsgl::test {
@@ -307,6 +308,86 @@ TEST_F(Procedural, OptionErrors) {
         [](auto& o) { o.offset.y = std::numeric_limits<double>::infinity(); });
   fails(ErrorCode::conflicting_options, "--alpha", [](auto& o) { o.alpha = 0.1, o.exponent = 2; });
   fails(ErrorCode::conflicting_options, "--texture-dir", [](auto& o) { o.texture_dir = "/"; });
+}
+
+class Moving : public Procedural {
+ protected:
+  scene::SceneSequence sequence(const std::string& name, const GenerateOptions& options) {
+    for (const auto& file : generate(name, options).files) folder.write(file.name, file.bytes);
+    return scene::SceneSequence(folder / "made.json");
+  }
+  static GenerateOptions moving(const std::string& what, int frames) {
+    GenerateOptions options;
+    options.animate = what;
+    options.frames = frames;
+    return options;
+  }
+};
+
+class MovingEach : public Moving, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(MovingEach, ThereAndBackInEveryScene) {
+  for (const auto& [name, summary] : scene::generators()) {
+    SCOPED_TRACE(name);
+    const Scene still = load(name);
+    const auto frames = sequence(name, moving(GetParam(), 130));
+    EXPECT_EQ(frames.frames(), 130);
+    const Scene first = frames.at(0), turn = frames.at(64), back = frames.at(128);
+    EXPECT_TRUE(first.warnings.empty()) << first.warnings.front();
+    expect_near(first.camera.position + first.anchor, still.camera.position + still.anchor, 1e-12);
+    expect_near(first.camera.forward, still.camera.forward, 1e-12);
+    EXPECT_NEAR(first.camera.tan_y, still.camera.tan_y, 1e-12);
+    expect_near(first.lights[0].position + first.anchor, still.lights[0].position + still.anchor, 1e-12);
+    expect_near(first.lights[0].forward, still.lights[0].forward, 1e-12);
+    EXPECT_NEAR(first.lights[0].cos_outer, still.lights[0].cos_outer, 1e-12);
+    EXPECT_NEAR(first.lights[0].intensity.x, still.lights[0].intensity.x, 1e-9);
+    const auto state = [](const Scene& scene) {
+      const Vec3 p = scene.camera.position, d = scene.lights[0].forward;
+      return std::vector<double>{p.x,
+                                 p.y,
+                                 p.z,
+                                 d.x,
+                                 d.y,
+                                 d.z,
+                                 position(scene.instances.back(), 0).x,
+                                 position(scene.instances.back(), 0).z};
+    };
+    EXPECT_EQ(state(back), state(first));
+    EXPECT_NE(state(turn), state(first));
+    EXPECT_NE(state(frames.at(1)), state(first));
+  }
+}
+INSTANTIATE_TEST_SUITE_P(What, MovingEach, ::testing::Values("light", "camera", "object"));
+
+TEST_F(Moving, AsFastAsPromised) {
+  const auto light = sequence("cornell", moving("light", 64));
+  for (int i = 1; i < 64; ++i)
+    EXPECT_NEAR(dot(light.at(i).lights[0].forward, light.at(i - 1).lights[0].forward),
+                std::cos(0.25 * std::numbers::pi / 180), 1e-12);
+  GenerateOptions large = moving("camera", 3);
+  large.height = 100;
+  large.scale = 3;
+  large.offset = {5, 6, 7};
+  const auto camera = sequence("cornell", large);
+  const Scene first = camera.at(0), next = camera.at(1);
+  const double distance = 3 * 0.8;  // to the box's front, where the camera looks at
+  expect_near(next.camera.position - first.camera.position,
+              first.camera.right * (2 * first.camera.tan_y * distance / 100), 1e-12);
+  EXPECT_EQ(next.camera.forward, first.camera.forward);
+  const auto object = sequence("cornell", moving("object", 64));
+  const Vec3 way = position(object.at(63).instances.back(), 0) - position(object.at(0).instances.back(), 0);
+  const double cone_radius =
+      0.3 * std::sqrt(0.162 * 0.162 + 0.54 * 0.54 + 0.09 * 0.09) * std::tan(28 * std::numbers::pi / 180);
+  EXPECT_NEAR(length(way), 2 * cone_radius * 63 / 64, 1e-6);
+}
+
+TEST_F(Moving, BadOptions) {
+  GenerateOptions still;
+  still.frames = 8;
+  expect_error(ErrorCode::conflicting_options, {"--frames", "--animate"},
+               [&] { generate("cornell", still); });
+  expect_error(ErrorCode::out_of_range, {"--frames", "10000"},
+               [&] { generate("cornell", moving("light", 1)); });
 }
 
 }  // namespace
