@@ -152,6 +152,12 @@ CLI::Option* Tool::output_folder(const std::string& flags, fs::path& path, const
   return option;
 }
 
+CLI::Option* Tool::state(const std::string& flags, fs::path& path, const std::string& help) {
+  CLI::Option* option = add_path(flags, path, help);
+  neutral_.insert(option);
+  return option;
+}
+
 void Tool::depends_on(const fs::path& path) {
   dependencies_.push_back(path);
 }

@@ -60,6 +60,9 @@ class Tool {
   // A folder for outputs, which is there already; not part of the provenance.
   CLI::Option* output_folder(const std::string& flags, std::filesystem::path& path, const std::string& help);
 
+  // A file that a run keeps for itself: it may be there already and is replaced; not part of the provenance.
+  CLI::Option* state(const std::string& flags, std::filesystem::path& path, const std::string& help);
+
   // Leaves an option, which does not shape the result, out of the command line of the provenance.
   void keep_from_provenance(const CLI::Option* option) { neutral_.insert(option); }
 
@@ -91,7 +94,7 @@ class Tool {
   CLI::App app_;
   CommonOptions common_;
   std::vector<PathOption> inputs_, outputs_;
-  std::set<const CLI::Option*> paths_;  // inputs, outputs and folders
+  std::set<const CLI::Option*> paths_;  // inputs, outputs, folders and states
   std::set<const CLI::Option*>
       neutral_;  // do not shape the result: left out of the command line of the provenance
   std::vector<std::filesystem::path> dependencies_;

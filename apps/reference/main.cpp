@@ -1,0 +1,75 @@
+// reference scene.json -o reference.exr: ground truth of one-bounce light by ray tracing.
+
+#include "base/log.h"
+#include "base/tool.h"
+#include "reference/options.h"
+#include "scene/scene_input.h"
+#include "stages/rsm/options.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  vsgl::scene::SceneInput scene;
+  fs::path gbuffer, output;
+  std::string resolution;
+  vsgl::reference::ReferenceParams params;
+};
+
+void declare(vsgl::Tool& tool, Arguments& a) {
+  CLI::App& app = tool.app();
+  a.scene.declare(tool);
+  CLI::Option* gbuffer = tool.input("--gbuffer", a.gbuffer,
+                                    "pixels of rsm-bake to trace (default: baked here, on a Vulkan device)");
+  app.add_option("--resolution", a.resolution,
+                 "pixels of the image, WIDTHxHEIGHT (default: the scene's); keeps the vertical field of view")
+      ->excludes(gbuffer);
+  tool.output("-o,--output", a.output, "radiance and its variance to write")->required();
+  vsgl::reference::add_options(app, a.params);
+  tool.state(
+      "--checkpoint", a.params.checkpoint,
+      "file to save the work in and to take it up again from; stays when all is done, for more --samples");
+  tool.keep_from_provenance(app.add_option("--checkpoint-interval", a.params.checkpoint_interval_s,
+                                           "seconds from one saving to the next")
+                                ->check(CLI::NonNegativeNumber));
+}
+
+vsgl::GBuffer bake(const vsgl::Tool& tool, vsgl::scene::Scene& scene, const std::string& resolution,
+                   vsgl::Report& report) {
+  if (!resolution.empty()) {
+    const auto size = vsgl::read_image_size("--resolution", resolution, vsgl::kMaxResolution);
+    scene.camera = vsgl::with_resolution(scene.camera, size.width, size.height);
+  }
+  vsgl::gpu::Device device({.device = tool.common().device, .threads = tool.common().threads});
+  report.count("device", device.info().name);
+  return vsgl::bake_gbuffer(scene, device, report);
+}
+
+vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
+  a.params.seed = tool.common().seed;
+  if (tool.app().count("--samples") == 0 && (a.params.target_error || a.params.time_budget_s))
+    a.params.samples = vsgl::reference::kMaxSamples;
+  vsgl::scene::Scene scene = a.scene.read(tool, report);
+  const vsgl::GBuffer gbuffer =
+      a.gbuffer.empty() ? bake(tool, scene, a.resolution, report) : vsgl::read_gbuffer(a.gbuffer);
+  constexpr std::size_t kSteps = 1000;
+  vsgl::Progress bar("reference", kSteps);
+  const vsgl::Reference image = vsgl::reference::trace_reference(
+      scene, gbuffer, a.params, report,
+      [&](double done) { bar.step(static_cast<std::size_t>(done * static_cast<double>(kSteps))); });
+  const vsgl::PhaseTimer timer(report, "write");
+  vsgl::write(outputs.add(a.output), image, tool.provenance());
+  return vsgl::Exit::ok;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  vsgl::Tool tool("reference", "traces ground truth of one-bounce light, with its variance");
+  Arguments arguments;
+  declare(tool, arguments);
+  return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {
+    return run(tool, arguments, report, outputs);
+  });
+}

@@ -1,0 +1,24 @@
+#include "reference/options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace vsgl::reference {
+
+void add_options(CLI::App& app, ReferenceParams& params) {
+  app.add_option("--strategy", params.strategy,
+                 "where paths start: light, at the sources; brdf, at the camera; mis, both, weighted")
+      ->check(CLI::IsMember({"light", "brdf", "mis"}));
+  app.add_option(
+         "--samples,--spp", params.samples,
+         "paths a pixel and kind of path (with --target-error or --time-budget and no --samples: as many "
+         "as it takes)")
+      ->check(CLI::Range(1, kMaxSamples));
+  app.add_option("--target-error", params.target_error,
+                 "stop when sqrt(mean variance) / mean of the indirect light is below")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--time-budget", params.time_budget_s,
+                 "stop after the pass during which so many seconds end")
+      ->check(CLI::PositiveNumber);
+}
+
+}  // namespace vsgl::reference
