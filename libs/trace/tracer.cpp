@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,20 @@ RTCRay make_ray(Vec3 origin, Vec3 direction, float nearest, float farthest) {
   return ray;
 }
 
+constexpr std::size_t kPacket = 16;
+
+void put(RTCRay16& rays, std::size_t i, const RTCRay& ray) {
+  rays.org_x[i] = ray.org_x;
+  rays.org_y[i] = ray.org_y;
+  rays.org_z[i] = ray.org_z;
+  rays.dir_x[i] = ray.dir_x;
+  rays.dir_y[i] = ray.dir_y;
+  rays.dir_z[i] = ray.dir_z;
+  rays.tnear[i] = ray.tnear;
+  rays.tfar[i] = ray.tfar;
+  rays.mask[i] = ray.mask;
+}
+
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // What a geometry's filter needs.
@@ -82,6 +97,17 @@ struct Tracer::Impl {
     rtcOccluded1(embree_scene.get(), &context, &ray);
     return ray.tfar < 0;
   }
+
+  // From one point to the other, both lifted.
+  RTCRay between(const SurfacePoint& a, const SurfacePoint& b) const {
+    const Vec3 start = lifted(a.position, a.normal, b.position - a.position);
+    const Vec3 end = lifted(b.position, b.normal, a.position - b.position), d = end - start;
+    const auto share = [&](Vec3 normal) {
+      return normal == Vec3{} ? static_cast<float>(near / length(d)) : 0;
+    };
+    return make_ray(start, d, share(a.normal), 1 - share(b.normal));
+  }
+  std::uint32_t occluded_packet(const SurfacePoint& a, std::span<const SurfacePoint> others) const;
 
   SurfaceResolver resolver;
   double lift, near;
@@ -127,6 +153,22 @@ void Tracer::Impl::add(const scene::Instance& instance, FilterData& filter_data)
   require_success(device.get());
 }
 
+std::uint32_t Tracer::Impl::occluded_packet(const SurfacePoint& a,
+                                            std::span<const SurfacePoint> others) const {
+  alignas(64) int valid[kPacket] = {};
+  RTCRay16 rays{};
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    valid[i] = -1;
+    put(rays, i, between(a, others[i]));
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded16(valid, embree_scene.get(), &context, &rays);
+  std::uint32_t hidden = 0;
+  for (std::size_t i = 0; i < others.size(); ++i) hidden |= static_cast<std::uint32_t>(rays.tfar[i] < 0) << i;
+  return hidden;
+}
+
 Tracer::Tracer(const scene::Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 Tracer::~Tracer() = default;
 
@@ -149,12 +191,15 @@ std::optional<Hit> Tracer::intersect(Vec3 origin, Vec3 direction, double nearest
 }
 
 bool Tracer::occluded(Vec3 a, Vec3 normal_a, Vec3 b, Vec3 normal_b) const {
-  const Vec3 start = impl_->lifted(a, normal_a, b - a), end = impl_->lifted(b, normal_b, a - b);
-  const Vec3 d = end - start;
-  const auto share = [&](Vec3 normal) {
-    return normal == Vec3{} ? static_cast<float>(impl_->near / length(d)) : 0;
-  };
-  return impl_->occluded(make_ray(start, d, share(normal_a), 1 - share(normal_b)));
+  return impl_->occluded(impl_->between({a, normal_a}, {b, normal_b}));
+}
+
+std::uint32_t Tracer::occluded(const SurfacePoint& a, std::span<const SurfacePoint> others) const {
+  std::uint32_t hidden = 0;
+  for (std::size_t first = 0; first < others.size(); first += kPacket)
+    hidden |= impl_->occluded_packet(a, others.subspan(first, std::min(kPacket, others.size() - first)))
+              << first;
+  return hidden;
 }
 
 bool Tracer::occluded_to_infinity(Vec3 a, Vec3 normal_a, Vec3 direction) const {

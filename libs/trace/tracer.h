@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "interop/surface.h"
 #include "math/vec.h"
@@ -26,6 +27,11 @@ struct Hit {
   std::uint32_t instance = 0, triangle = 0;  // of the scene, and of the instance's index list
   double b = 0, c = 0;  // barycentric coordinates of the triangle's second and third corner
   double distance = 0;  // m, along the unit direction
+};
+
+// A point of a surface and the surface's geometric normal there.
+struct SurfacePoint {
+  Vec3 position, normal;
 };
 
 // A scene (which must outlive it) prepared for rays. Positions in metres relative to the scene's anchor.
@@ -49,6 +55,8 @@ class Tracer {
   // their geometric normals, on the side of the other end, by kLift times the scene's radius.
   // A point that is no surface (a light source) has the normal 0; nothing occludes within kNear of it.
   bool occluded(Vec3 a, Vec3 normal_a, Vec3 b, Vec3 normal_b) const;
+  // The same for one point and up to 32 others at once, in bit i for the i-th; about twice as fast.
+  std::uint32_t occluded(const SurfacePoint& a, std::span<const SurfacePoint> others) const;
   // Whether anything lies on the ray from `a` to infinity along the unit `direction`.
   bool occluded_to_infinity(Vec3 a, Vec3 normal_a, Vec3 direction) const;
 

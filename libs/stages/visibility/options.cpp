@@ -6,14 +6,15 @@ namespace vsgl {
 
 void add_options(CLI::App& app, VisibilityParams& params) {
   add_methods(app, visibility_methods(), params.method, "how visibility is found out");
-  app.add_option("--points", params.points_per_light, "surface points a light")
+  app.add_option("--points", params.points_per_light, "ism: surface points a light")
       ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--tile", params.tile, "texels a side of a map, a power of two")->check(CLI::Range(8, 512));
+  app.add_option("--tile", params.tile, "ism: texels a side of a map, a power of two")
+      ->check(CLI::Range(8, 512));
   app.add_option("--splat-scale", params.splat_scale,
-                 "radius of a splatted disk, in radii of the disk that a point stands for")
+                 "ism: radius of a splatted disk, in radii of the disk that a point stands for")
       ->check(CLI::Range(0.0, 4.0));
   app.add_flag_callback(
-      "--no-pull-push", [&params] { params.pull_push = false; }, "leave the holes between splats open");
+      "--no-pull-push", [&params] { params.pull_push = false; }, "ism: leave the holes between splats open");
 }
 
 }  // namespace vsgl

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "stages/visibility/ism.h"
+#include "stages/visibility/raytraced.h"
 #include "stages/visibility/visibility.h"
 
 namespace vsgl {
@@ -54,6 +55,10 @@ const std::vector<VisibilityMethod>& visibility_methods() {
        .summary = "imperfect shadow maps: surface points splatted into a hemisphere per light",
        .needs_device = true,
        .run = visibility::build_ism},
+      {.name = "raytraced",
+       .summary = "exact: a ray from each pixel to the point that represents each light",
+       .needs_gbuffer = true,
+       .run = visibility::trace_visibility},
   };
   return methods;
 }
