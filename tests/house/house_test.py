@@ -12,7 +12,7 @@ SOURCES = {".h", ".cpp", ".glsl", ".comp", ".vert", ".frag"}
 CITATION_KEY = r"[A-Z][A-Za-z]+ (?:19|20)\d\d[a-z]?"
 
 # Which rank a library has; it may include its own headers and those of lower ranks.
-RANKS = {"base": 0, "math": 1, "image": 2, "scene": 2, "gpu": 2, "pyramid": 3, "trace": 3, "artifact": 4, "reference": 5}
+RANKS = {"base": 0, "math": 1, "image": 2, "scene": 2, "gpu": 2, "pyramid": 3, "report": 3, "trace": 3, "artifact": 4, "reference": 5, "pipeline": 6}
 STAGE_RANK = 5
 
 
@@ -50,7 +50,7 @@ def rank_of(library):
 
 def backward_includes(root):
     """(file, header) of every #include that runs against the arrows base <- math <- {image, scene <- trace, gpu <- pyramid} <- artifact <-
-    {stages/*, reference}."""
+    {stages/*, reference} <- pipeline."""
     found = []
     for path in sources(root, "libs"):
         relative = path.relative_to(root / "libs")

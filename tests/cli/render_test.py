@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+"""render against the separate tools: the same artifacts, with headers that differ in tool, command line and input files only; sequences
+whose frames are those rendered alone; every method of every tool from a pipeline JSON.
+
+Usage: render_test.py --bin FOLDER_OF_THE_TOOLS
+"""
+
+import argparse
+import json
+import pathlib
+import struct
+import sys
+import tempfile
+
+import jsonschema
+
+from blackbox import require, run, run_checks
+import help_text
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCHEMA = "vsgltools/pipeline/1"
+STAGES = {"rsm_bake": "rsm-bake", "pdf_build": "pdf-build", "vsgl_gen": "vsgl-gen", "ismap": "ismap", "shade": "shade"}
+SCENES = {
+    "cornell-glossy": ["cornell-glossy", "--resolution", "48x32"],
+    "atrium": ["atrium", "--triangles", "6000", "--resolution", "48x32"],
+}
+SMALL = {
+    "rsm_bake": {"rsm_size": "32"},
+    "pdf_build": {"gbuffer_lights": 64, "view_samples": 32},
+    "vsgl_gen": {"count": 48},
+    "ismap": {"points": 512, "tile": 16},
+    "shade": {},
+}
+# Changes to SMALL; None takes a stage away.
+PIPELINES = {
+    "vsgl": {},
+    "vpl": {"pdf_build": {"method": "flux"}, "vsgl_gen": {"method": "vpl"}, "shade": {"method": "vpl"}},
+    "fis-2014": {"rsm_bake": {"rsm_normals": "paper"}, "pdf_build": {"method": "brsm-vpl"}, "vsgl_gen": {"method": "fis-2014"},
+                 "shade": {"method": "vsgl-2014", "cbr": 0}},
+    "exact visibility": {"ismap": {"method": "raytraced"}},
+    "no shadows": {"ismap": None},
+}
+KEPT = ["gbuffer.exr", "rsm.exr", "pdf.exr", "lights.exr", "ism.exr"]
+OWN_ATTRIBUTES = {"vsgl.tool", "vsgl.command", "vsgl.inputs"}
+
+
+def pipeline(changes):
+    document = {"$schema": SCHEMA}
+    for stage, options in SMALL.items():
+        change = changes.get(stage, {})
+        document[stage] = None if change is None else {**options, **change}
+    return document
+
+
+def flags(options):
+    """The options of a stage as its tool's flags."""
+    words = []
+    for key, value in options.items():
+        words += ["--" + key.replace("_", "-")] + ([] if value is True else [str(value)])
+    return words
+
+
+def read_exr(path):
+    """The attributes of each part of an OpenEXR file, {name: (type, bytes)}, and the bytes of all its pixels."""
+    data = path.read_bytes()
+    multipart, at, parts = bool(struct.unpack_from("<I", data, 4)[0] & 0x1000), 8, [{}]
+
+    def text():
+        nonlocal at
+        end = data.index(b"\0", at)
+        value, at = data[at:end].decode(), end + 1
+        return value
+
+    while True:
+        name = text()
+        if name:
+            kind = text()
+            size = struct.unpack_from("<I", data, at)[0]
+            parts[-1][name] = (kind, data[at + 4:at + 4 + size])
+            at += 4 + size
+        elif multipart and data[at] != 0:
+            parts.append({})
+        else:
+            break
+    first_chunk = struct.unpack_from("<Q", data, at + multipart)[0]  # the table of offsets follows the headers
+    return parts, data[first_chunk:]
+
+
+class RenderTest:
+    def __init__(self, bin_dir, folder):
+        self.bin = bin_dir.resolve()
+        self.folder = folder
+        for name, arguments in SCENES.items():
+            self.tool("scene-gen", *arguments, "-o", f"{name}.json")
+
+    def tool(self, name, *arguments):
+        return run([self.bin / name, *arguments], cwd=self.folder).expect_success()
+
+    def render(self, scene, document, output, *arguments):
+        """Runs render on a pipeline document; returns its JSON result."""
+        (self.folder / "pipeline.json").write_text(json.dumps(document))
+        result = self.tool("render", f"{scene}.json", "--pipeline", "pipeline.json", "-o", output, "--overwrite", "--json", *arguments)
+        return json.loads(result.out)
+
+    def run_tools(self, scene, document, into):
+        """The same chain with the separate tools; returns the names of the artifacts."""
+        (self.folder / into).mkdir()
+        at = lambda name: f"{into}/{name}.exr"
+        stage = lambda key, *paths: self.tool(STAGES[key], *paths, *flags(document[key]))
+        stage("rsm_bake", f"{scene}.json", "--gbuffer", at("gbuffer"), "--rsm", at("rsm"))
+        stage("pdf_build", "--rsm", at("rsm"), "--gbuffer", at("gbuffer"), "-o", at("pdf"))
+        stage("vsgl_gen", "--rsm", at("rsm"), "--pdf", at("pdf"), "-o", at("lights"))
+        shadows = []
+        if document["ismap"] is not None:
+            stage("ismap", f"{scene}.json", "--lights", at("lights"), "--gbuffer", at("gbuffer"), "-o", at("ism"))
+            shadows = ["--ism", at("ism")]
+        stage("shade", "--gbuffer", at("gbuffer"), "--lights", at("lights"), *shadows, "--rsm", at("rsm"), "-o", at("image"))
+
+    def require_same(self, one, other):
+        result = run([self.bin / "compare", one, other, "--json"], cwd=self.folder)
+        require(result.status == 0, f"{result}: the artifacts differ")
+        (ours, pixels), (theirs, other_pixels) = read_exr(self.folder / one), read_exr(self.folder / other)
+        require(len(pixels) > 500 and pixels == other_pixels, f"{one} and {other}: their pixels are not the same bytes")
+        require(len(ours) == len(theirs) and ours, f"{one}: {len(ours)} parts, {other}: {len(theirs)}")
+        for a, b in zip(ours, theirs):
+            require(len(a) > 10, f"{one}: too few attributes to be true: {list(a)}")
+            different = [name for name in a.keys() | b.keys() if a.get(name) != b.get(name) and name not in OWN_ATTRIBUTES]
+            require(not different, f"{one} and {other}: the header attributes {different} differ")
+
+    def check_same_as_tools(self, scene, name):
+        document = pipeline(PIPELINES[name])
+        kept, apart = f"kept {scene} {name}", f"apart {scene} {name}"
+        (self.folder / kept).mkdir()
+        self.render(scene, document, f"{kept}/image.exr", "--keep", kept, "--direct")
+        self.run_tools(scene, document, apart)
+        made = sorted(path.name for path in (self.folder / apart).iterdir())
+        require(made == sorted(path.name for path in (self.folder / kept).iterdir()), f"{kept} does not hold just {made}")
+        for artifact in made:
+            self.require_same(f"{kept}/{artifact}", f"{apart}/{artifact}")
+
+    def check_frames(self):
+        self.tool("scene-gen", "cornell-glossy", "--resolution", "48x32", "--animate", "object", "--frames", "3", "-o", "moving.json")
+        (self.folder / "frames").mkdir()
+        document = pipeline({})
+        result = self.render("moving", document, "frames/image.%04d.exr", "--frames", "0:2", "--keep", "frames")
+        built = [frame["pipelines_built"] for frame in result["counts"]["frames"]]
+        require(built[0] > 5 and built[1:] == [0, 0], f"pipelines built for the frames: {built}")
+        require([frame["frame"] for frame in result["counts"]["frames"]] == [0, 1, 2], "wrong frames in the report")
+        images = []
+        for frame in range(3):
+            self.render("moving", document, "alone.exr", "--frame", str(frame))
+            images.append((self.folder / "alone.exr").read_bytes())
+            require(images[-1] == (self.folder / f"frames/image.{frame:04}.exr").read_bytes(), f"frame {frame} depends on those before it")
+            for name in KEPT:
+                require((self.folder / f"frames/{name[:-4]}.{frame:04}.exr").is_file(), f"{name} of frame {frame} is missing")
+        require(len(set(images)) == 3, "the frames do not differ")
+
+    def check_threads(self):
+        for threads in ("1", "2"):
+            self.render("atrium", pipeline({}), f"threads{threads}.exr", "--direct", "--threads", threads)
+        require((self.folder / "threads1.exr").read_bytes() == (self.folder / "threads2.exr").read_bytes(), "two threads give other bytes")
+
+    def check_methods(self):
+        tried = 0
+        for stage, tool in STAGES.items():
+            if stage == "rsm_bake":
+                continue
+            methods = [line.split()[0] for line in self.tool(tool, "--list-methods").out.splitlines()]
+            require(methods, f"{tool} lists no methods")
+            for method in methods:
+                self.render("cornell-glossy", pipeline({stage: {"method": method}}), "method.exr")
+                tried += 1
+        require(tried >= 12, f"only {tried} methods tried")
+
+    def check_defaults(self):
+        """A pipeline without objects is none at all, and the default chain is the same spelt out."""
+        images = []
+        for name, words in (("none", []), ("empty", ["--pipeline", "empty.json"]), ("vsgl", ["--pipeline", ROOT / "configs/pipelines/vsgl.json"])):
+            (self.folder / "empty.json").write_text(json.dumps({"$schema": SCHEMA}))
+            self.tool("render", "cornell-glossy.json", "-o", f"default-{name}.exr", "--resolution", "16x16", *words)
+            images.append(f"default-{name}.exr")
+        self.require_same(images[0], images[1])
+        self.require_same(images[0], images[2])
+
+    def check_schema(self):
+        """The schema knows just the keys that the tools take, and the committed pipelines hold by it."""
+        schema = json.loads((ROOT / "configs/schema/pipeline.schema.json").read_text())
+        for stage, tool in STAGES.items():
+            options = help_text.parse(self.tool(tool, "--help").out).options
+            shared = help_text.parse(self.tool("scene-gen", "--help").out).options
+            wanted = {option.key: option for option in options
+                      if option.type != "FILE" and option.long not in ("--frame", "--list-methods", "--dump")
+                      and (option.long == "--resolution" or option.long not in [other.long for other in shared])}
+            known = schema["properties"][stage]["properties"]
+            require(sorted(wanted) == sorted(known), f"schema of {stage}: {sorted(known)}, {tool} takes {sorted(wanted)}")
+            for key, option in wanted.items():
+                if option.choices:
+                    require(option.choices == known[key]["enum"], f"{stage}/{key}: choices {option.choices}, schema {known[key]['enum']}")
+                if option.default:
+                    require(str(known[key]["default"]) == option.default, f"{stage}/{key}: default {option.default}")
+        committed = sorted((ROOT / "configs/pipelines").glob("*.json"))
+        require(len(committed) >= 4, "pipelines are missing")
+        for path in committed:
+            jsonschema.validate(json.loads(path.read_text()), schema)
+            self.tool("render", "cornell-glossy.json", "--pipeline", path, "-o", f"committed-{path.name}.exr", "--resolution", "8x8")
+
+    def check_report(self):
+        result = self.render("cornell-glossy", pipeline({}), "report.exr")
+        jsonschema.validate(result, json.loads((ROOT / "configs/schema/result.schema.json").read_text()))
+        stages = result["counts"]["frames"][0]["stages"]
+        require([stage["tool"] for stage in stages] == list(STAGES.values()), f"stages in the report: {stages}")
+        require(all(stage["host_s"] > 0 and stage["device_s"] > 0 for stage in stages), f"a stage without time: {stages}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--bin", required=True, type=pathlib.Path)
+    bin_dir = parser.parse_args().bin
+    with tempfile.TemporaryDirectory() as temporary:
+        test = RenderTest(bin_dir, pathlib.Path(temporary))
+        checks = [(f"{scene}, {name}: the tools' artifacts", lambda s=scene, n=name: test.check_same_as_tools(s, n))
+                  for scene in SCENES for name in PIPELINES]
+        checks += [("frames of a sequence", test.check_frames), ("the same bytes on two threads", test.check_threads),
+                   ("every method", test.check_methods), ("defaults", test.check_defaults), ("schema", test.check_schema),
+                   ("report", test.check_report)]
+        return run_checks(checks)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
