@@ -1,0 +1,212 @@
+"""From an experiment's JSON to its plan: the stages that must run, each with its options and input files, and the rows of the table.
+
+A stage's folder is named after a hash of its tool, options, arguments and input folders, so that equal stages are one and a
+changed option changes the names of that stage and of those after it only."""
+
+import hashlib
+import json
+import pathlib
+import shlex
+
+import jsonschema
+
+SCHEMA = pathlib.Path(__file__).resolve().parents[1] / "schema" / "experiment.schema.json"
+
+
+class ExperimentError(Exception):
+    """The experiment's file is wrong; the message names the file and the JSON pointer."""
+
+
+def read_experiment(path):
+    """The experiment with its defaults filled in. Throws ExperimentError."""
+    try:
+        experiment = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=unique_keys(path))
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise ExperimentError(f"{path}: {error}") from error
+    schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
+    schema.pop("$id")  # relative, which Debian's jsonschema takes for a folder to resolve references in
+    error = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(schema).iter_errors(experiment))
+    if error is not None:
+        raise ExperimentError(f"{path}: {pointer(error.absolute_path)}: {error.message}")
+    for key in ("seeds", "plots"):
+        experiment.setdefault(key, schema["properties"][key]["default"])
+    experiment["reference"].setdefault("seed", schema["properties"]["reference"]["properties"]["seed"]["default"])
+    check_names(path, experiment)
+    return experiment
+
+
+def unique_keys(path):
+    """For json.loads: an object that has a key twice is an error."""
+    def build(pairs):
+        keys = [key for key, _ in pairs]
+        for key in keys:
+            if keys.count(key) > 1:
+                raise ExperimentError(f"{path}: the key \"{key}\" stands twice in one object")
+        return dict(pairs)
+    return build
+
+
+def pointer(path):
+    return "/" + "/".join(str(part).replace("~", "~0").replace("/", "~1") for part in path)
+
+
+def check_names(path, experiment):
+    """What the schema cannot say: names that must exist, seeds that must differ."""
+    def require(condition, where, message):
+        if not condition:
+            raise ExperimentError(f"{path}: {pointer(where)}: {message}")
+
+    variants = experiment["variants"]
+    for name, variant in variants.items():
+        require("count" not in variant.get("pipeline", {}).get("vsgl_gen", {}) or "counts" not in variant,
+                ["variants", name, "pipeline", "vsgl_gen", "count"], "is given by /variants/" + name + "/counts as well; remove one")
+        if "reference" in variant:
+            require("samples" not in variant["reference"], ["variants", name, "reference", "samples"],
+                    "belongs beside it, as a list: /variants/" + name + "/samples")
+            require(experiment["reference"]["seed"] not in variant.get("seeds", experiment["seeds"]), ["reference", "seed"],
+                    f"is a seed of the variant \"{name}\" too, which would share the reference's paths and look better than it is")
+    for name, decomposition in experiment.get("decompositions", {}).items():
+        where = ["decompositions", name]
+        for used, place in [(decomposition["variant"], where + ["variant"])] + [
+                (step["variant"], where + ["steps", i, "variant"]) for i, step in enumerate(decomposition["steps"])]:
+            require("pipeline" in variants.get(used, {}), place, f"no variant \"{used}\" with a pipeline; there are " +
+                    ", ".join(other for other, variant in variants.items() if "pipeline" in variant))
+            counts = variants[used].get("counts")
+            require(counts is None or set(variants[decomposition["variant"]].get("counts", [None])) <= set(counts), place,
+                    f"\"{used}\" lacks numbers of lights that \"{decomposition['variant']}\" has")
+
+
+def digest(value):
+    return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()[:12]
+
+
+class Plan:
+    """The stages of an experiment. scene(), bake(), trace() and shade() each add a stage, or find it if an equal one is there."""
+
+    def __init__(self, experiment, path):
+        self.experiment = experiment
+        self.folder = path.resolve().parent
+        self.stages = {}
+        self.origins = {}  # of a stage's options: JSON pointer into the experiment
+        self.rows = []
+        self.decompositions = []
+        for scene in experiment["scenes"]:
+            for frame in experiment.get("frames", [None]):
+                self.add_frame(scene, frame)
+
+    def stage(self, tool, label, inputs, options=None, arguments=(), origin=()):
+        """Returns its folder. inputs: name in the rule -> path, or list of paths, relative to the experiment's output folder."""
+        content = {"tool": tool, "options": options, "arguments": list(arguments), "inputs": inputs}
+        name = f"{tool}/{'-'.join(str(part) for part in label if part is not None)}-{digest(content)}"
+        folder = f"stages/{name}"
+        used = dict(inputs, tool=f"tools/{tool}.sha256")
+        if options is not None:
+            used["parameters"] = f"{folder}/parameters.json"
+        self.stages[name] = {"folder": folder, "inputs": used, "options": options, "arguments": shlex.join(arguments),
+                             "warm_up": tool in ("rsm-bake", "pdf-build")}
+        self.origins.setdefault(name, pointer(origin))
+        return folder
+
+    def scene(self, name):
+        """Path of the scene JSON."""
+        scene = self.experiment["scenes"][name]
+        if "scene" in scene:
+            return str((self.folder / scene["scene"]).resolve())
+        return self.stage("scene-gen", [name], {}, None, scene["generate"] + ["--resolution", self.experiment["resolution"]]) + "/scene.json"
+
+    def bake(self, scene, frame, options=None, origin=("rsm_bake",)):
+        """Folder of G-buffer and RSM. options: None for the experiment's own."""
+        options = self.experiment.get("rsm_bake", {}) if options is None else options
+        options = {"resolution": self.experiment["resolution"]} | options
+        return self.stage("rsm-bake", [scene, at(frame)], {"scene": self.scene(scene)}, options, frame_arguments(frame), origin)
+
+    def trace(self, scene, frame, options, seed, origin):
+        """Image by path tracing."""
+        inputs = {"scene": self.scene(scene), "gbuffer": f"{self.bake(scene, frame)}/gbuffer.exr"}
+        label = [scene, at(frame), options.get("strategy"), options["samples"], f"s{seed}"]
+        arguments = ["--seed", str(seed), *frame_arguments(frame)]
+        return self.stage("reference", label, inputs, options, arguments, origin) + "/reference.exr"
+
+    def shade(self, scene, frame, pipeline, n, seed, origin):
+        """Image by virtual lights, and the folders of the stages that make it."""
+        def stage(tool, label, inputs, arguments=(), **further):
+            key = tool.replace("-", "_")
+            return self.stage(tool, [scene, at(frame), *label], inputs, pipeline.get(key, {}) | further, arguments, (*origin, key))
+
+        def method(key):
+            return pipeline.get(key, {}).get("method")
+
+        bake = self.bake(scene, frame, pipeline.get("rsm_bake"), (*origin, "rsm_bake") if "rsm_bake" in pipeline else ("rsm_bake",))
+        rsm, gbuffer = f"{bake}/rsm.exr", f"{bake}/gbuffer.exr"
+        stages = {"rsm-bake": bake, "pdf-build": stage("pdf-build", [method("pdf_build")], {"rsm": rsm, "gbuffer": gbuffer})}
+        count = {} if n is None else {"count": n}
+        inputs = {"rsm": rsm, "pdf": f"{stages['pdf-build']}/pdf.exr"}
+        stages["vsgl-gen"] = stage("vsgl-gen", [method("vsgl_gen"), n, f"s{seed}"], inputs, ["--seed", str(seed)], **count)
+        inputs = {"gbuffer": gbuffer, "lights": f"{stages['vsgl-gen']}/lights.exr"}
+        if pipeline.get("ismap", {}) is not None:
+            stages["ismap"] = stage("ismap", [method("vsgl_gen"), n, f"s{seed}"], {"scene": self.scene(scene), **inputs}, frame_arguments(frame))
+            inputs["ism"] = f"{stages['ismap']}/ism.exr"
+        stages["shade"] = stage("shade", [method("shade"), n, f"s{seed}"], inputs)
+        return f"{stages['shade']}/indirect.exr", stages
+
+    def image(self, scene, frame, name, n, seed):
+        """Of a variant: its path, and the folders of the stages that make it."""
+        variant = self.experiment["variants"][name]
+        if "pipeline" in variant:
+            return self.shade(scene, frame, variant["pipeline"], n, seed, ("variants", name, "pipeline"))
+        image = self.trace(scene, frame, variant["reference"] | {"samples": n}, seed, ("variants", name, "reference"))
+        return image, {"reference": str(pathlib.PurePath(image).parent)}
+
+    def add_frame(self, scene, frame):
+        """All images of one frame of a scene, and their comparison with its reference."""
+        options = {key: value for key, value in self.experiment["reference"].items() if key != "seed"}
+        truth = self.trace(scene, frame, options, self.experiment["reference"]["seed"], ("reference",))
+        images = {}
+        for name, variant in self.experiment["variants"].items():
+            first = None
+            for n in sorted(variant.get("counts", variant.get("samples", [None]))):
+                for seed in variant.get("seeds", self.experiment["seeds"]):
+                    image, stages = self.image(scene, frame, name, n, seed)
+                    self.order(stages, first := first or stages)
+                    images.setdefault((name, n), []).append(image)
+                    comparison = self.stage("compare", [scene, at(frame), name, n, f"s{seed}"], {"test": image, "reference": truth})
+                    self.rows.append({"scene": scene, "frame": frame, "variant": name, "n": n, "seed": seed, "image": image, "stages": stages,
+                                      "comparison": f"{comparison}/comparison.json", "reference": truth})
+        for name, decomposition in self.experiment.get("decompositions", {}).items():
+            self.decompose(scene, frame, name, decomposition, images, truth)
+
+    def order(self, stages, first):
+        """Of a variant's images the first, with the fewest lights, is made first, and after a warm-up run: so that shaders are compiled before
+        the times of the others count."""
+        for tool in ("vsgl-gen", "ismap", "shade"):
+            if tool not in stages:
+                continue
+            stage, before = (self.stages[folder.removeprefix("stages/")] for folder in (stages[tool], first[tool]))
+            if stage is not before:
+                stage["inputs"]["after"] = f"{before['folder']}/times.json"
+                before["warm_up"] = True
+
+    def decompose(self, scene, frame, name, decomposition, images, truth):
+        """For each number of lights: the image of the first seed, then the images with one cause of error less at each step."""
+        for n in self.experiment["variants"][decomposition["variant"]].get("counts", [None]):
+            steps = []
+            for step in decomposition["steps"]:
+                found = images.get((step["variant"], n)) or images[step["variant"], None]
+                steps.append((step["name"], found if step.get("mean") else found[:1]))
+            inputs = {"test": images[decomposition["variant"], n][0], "reference": truth,
+                      "steps": sorted({path for _, paths in steps for path in paths})}
+            arguments = [word for cause, paths in steps for word in ("--step", f"{cause}={','.join(paths)}")]
+            folder = self.stage("compare", [scene, at(frame), name, n], inputs, None, arguments)
+            self.decompositions.append({"name": name, "scene": scene, "frame": frame, "n": n, "comparison": f"{folder}/comparison.json"})
+
+    def to_json(self):
+        return {"experiment": self.experiment, "stages": self.stages, "rows": self.rows, "decompositions": self.decompositions}
+
+
+def at(frame):
+    """Of a folder's name."""
+    return None if frame is None else f"f{frame}"
+
+
+def frame_arguments(frame):
+    return [] if frame is None else ["--frame", str(frame)]

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Makes the experiment's table, results.json and results.csv, from plan.json and what the stages left. Runs in the output folder."""
+
+import csv
+import json
+import pathlib
+
+STAGES = ["rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "reference"]
+
+
+def read_json(path):
+    return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+
+
+def stage_times(folder):
+    """Seconds of a stage: its phases without and with the reading and writing of files, and the process from start to end."""
+    times = read_json(f"{folder}/times.json")
+    phases = [(phase["name"].split()[0] in ("read", "write"), phase["host_s"]) for phase in times["phases"]]
+    return {"time_s": sum(seconds for files, seconds in phases if not files), "time_with_files_s": sum(seconds for _, seconds in phases),
+            "wall_s": times["wall_s"], "jobs": times["jobs"], "threads": times["threads"], "processor": times["processor"]}
+
+
+def row_times(folders):
+    """Of all stages that made an image."""
+    stages = {tool: stage_times(folders[tool]) for tool in STAGES if tool in folders}
+    sums = {key: sum(stage[key] for stage in stages.values()) for key in ("time_s", "time_with_files_s", "wall_s")}
+    conditions = {"jobs": max(stage["jobs"] for stage in stages.values()), "threads": sorted({stage["threads"] for stage in stages.values()}),
+                  "processors": sorted({stage["processor"] for stage in stages.values()})}
+    return {**sums, "stages": {tool: stage["time_s"] for tool, stage in stages.items()}, **conditions}
+
+
+def numbers(value, prefix=""):
+    """The numeric leaves of a JSON object, by dotted names."""
+    found = {}
+    for key, entry in value.items():
+        if isinstance(entry, dict):
+            found.update(numbers(entry, f"{prefix}{key}."))
+        elif entry is None or (isinstance(entry, (int, float)) and not isinstance(entry, bool)):
+            found[prefix + key] = entry
+    return found
+
+
+def metrics(comparison):
+    """All figures that compare gives for the layer `indirect`."""
+    found = numbers(read_json(comparison)["layers"]["indirect"])
+    if not found:
+        raise ValueError(f"{comparison}: no figures of the layer indirect")
+    return found
+
+
+def write_csv(rows, target):
+    """A line per image. Times: time_s is the sum of the stages' phases without files, <stage>_s its parts."""
+    used = [tool for tool in STAGES if any(tool in row["times"]["stages"] for row in rows)]
+    names = list(dict.fromkeys(name for row in rows for name in row["metrics"]))
+    with open(target, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["scene", "frame", "variant", "n", "seed", *(f"{tool.replace('-', '_')}_s" for tool in used), "time_s", "time_with_files_s",
+                         "wall_s", "jobs", *names])
+        for row in rows:
+            times = row["times"]
+            writer.writerow([row["scene"], row["frame"], row["variant"], row["n"], row["seed"], *(times["stages"].get(tool) for tool in used),
+                             times["time_s"], times["time_with_files_s"], times["wall_s"], times["jobs"],
+                             *(row["metrics"].get(name) for name in names)])
+
+
+def main():
+    plan = read_json("plan.json")
+    rows = [{key: row[key] for key in ("scene", "frame", "variant", "n", "seed", "image", "reference")} |
+            {"metrics": metrics(row["comparison"]), "times": row_times(row["stages"])} for row in plan["rows"]]
+    decompositions = [{key: entry[key] for key in ("name", "scene", "frame", "n")} |
+                      {"decomposition": read_json(entry["comparison"])["decomposition"]} for entry in plan["decompositions"]]
+    result = {"$schema": "vsgltools/experiment-results/1", "rows": rows, "decompositions": decompositions}
+    pathlib.Path("results.json").write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+    write_csv(rows, "results.csv")
+
+
+if __name__ == "__main__":
+    main()

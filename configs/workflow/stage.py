@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Runs one tool of the chain for the workflow, in its stage's folder: keeps the tool's JSON as report.json and all that was measured apart
+from it, in times.json, so that everything else is the same bytes in every run.
+
+The folder is locked while the tool runs. A tool that outlives a workflow killed half-way is so waited for, not met."""
+
+import argparse
+import fcntl
+import json
+import os
+import pathlib
+import platform
+import resource
+import subprocess
+import sys
+import time
+
+
+def processor():
+    """Name of the processor, as far as the system tells."""
+    for line in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+        if line.startswith("model name"):
+            return line.split(":", 1)[1].strip()
+    return platform.machine()
+
+
+def write_json(path, value):
+    """As a whole or not at all."""
+    temporary = path.with_name(f".{path.name}.tmp-{os.getpid()}")
+    temporary.write_text(json.dumps(value, indent=2) + "\n", encoding="utf-8")
+    temporary.rename(path)
+
+
+def remove_leftovers(folder):
+    """Temporary files of tools that were killed. Only under the folder's lock."""
+    for path in folder.glob(".*.tmp-*"):
+        path.unlink()
+
+
+def measure(command, lock):
+    """Runs the command, which keeps the lock as long as it lives; returns its status, output and what it took."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    start = time.monotonic()
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False, pass_fds=[lock])
+    wall = time.monotonic() - start
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    cpu = used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime
+    return done, {"wall_s": wall, "cpu_s": cpu, "peak_memory_bytes": used.ru_maxrss * 1024}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--folder", required=True, type=pathlib.Path, help="of the stage")
+    parser.add_argument("--threads", required=True, type=int, help="of the tool")
+    parser.add_argument("--jobs", required=True, type=int, help="that run at once on the machine and so disturb the times")
+    parser.add_argument("--accept", type=int, nargs="*", default=[0], help="exit statuses that are no failure")
+    parser.add_argument("--warm-up", action="store_true", help="run the tool once before: its shaders are compiled then")
+    parser.add_argument("command", nargs="+", help="the tool and its arguments")
+    options = parser.parse_args()
+
+    options.folder.mkdir(parents=True, exist_ok=True)
+    lock = os.open(options.folder, os.O_RDONLY | os.O_DIRECTORY)
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    remove_leftovers(options.folder)
+    command = [*options.command, "--threads", str(options.threads), "--json", "--overwrite", "--progress", "never"]
+    if options.warm_up:
+        measure(command, lock)
+    done, measured = measure(command, lock)
+    if done.returncode not in options.accept:
+        sys.exit(f"stage: {' '.join(options.command)} ended with status {done.returncode}")
+    result = json.loads(done.stdout)
+    times = {"phases": result.pop("phases"), **measured, "threads": options.threads, "jobs": options.jobs, "host": platform.node(),
+             "processor": processor()}
+    write_json(options.folder / "report.json", result)
+    write_json(options.folder / "times.json", times)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""Reading of experiments, and what their plans share."""
+
+import copy
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "configs" / "workflow"))
+
+from plan import ExperimentError, Plan, read_experiment  # noqa: E402
+from plots import pareto_front  # noqa: E402
+from results import numbers  # noqa: E402
+
+EXPERIMENT = {
+    "$schema": "vsgltools/experiment/1",
+    "resolution": "64x36",
+    "scenes": {"box": {"generate": ["cornell"]}, "hall": {"scene": "../hall.json"}},
+    "reference": {"samples": 64},
+    "variants": {
+        "fis": {"pipeline": {"vsgl_gen": {"method": "fis-2016"}}, "counts": [256, 64]},
+        "fis-sharp": {"pipeline": {"vsgl_gen": {"method": "fis-2016"}, "shade": {"cbr": 0}}, "counts": [64]},
+        "texels": {"pipeline": {"vsgl_gen": {"method": "texels"}, "ismap": None}},
+        "paths": {"reference": {"strategy": "mis"}, "samples": [1, 4]},
+    },
+    "seeds": [0, 1],
+    "decompositions": {"split": {"variant": "fis-sharp", "steps": [{"name": "sampling", "variant": "fis", "mean": True},
+                                                                   {"name": "clustering", "variant": "texels"}]}},
+}
+
+
+def tools(plan):
+    """tool -> number of its stages."""
+    names = [name.split("/")[0] for name in plan.stages]
+    return {name: names.count(name) for name in set(names)}
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = pathlib.Path(temporary.name) / "test.json"
+        self.experiment = copy.deepcopy(EXPERIMENT)
+
+    def read(self):
+        self.path.write_text(json.dumps(self.experiment), encoding="utf-8")
+        return read_experiment(self.path)
+
+    def plan(self):
+        return Plan(self.read(), self.path)
+
+
+class Strictness(Files):
+    def assert_error(self, where, what):
+        with self.assertRaises(ExperimentError) as caught:
+            self.read()
+        self.assertIn(f"{self.path}: {where}: ", str(caught.exception))
+        self.assertIn(what, str(caught.exception))
+
+    def test_base_is_right(self):
+        self.read()
+
+    def test_shipped_experiments_are_right(self):
+        paths = sorted((ROOT / "configs" / "experiments").glob("*.json"))
+        self.assertGreaterEqual(len(paths), 3)
+        for path in paths:
+            with self.subTest(path.name):
+                self.assertTrue(Plan(read_experiment(path), path).rows)
+
+    def test_unknown_key(self):
+        self.experiment["variants"]["fis"]["pipeline"]["vsglgen"] = {}
+        self.assert_error("/variants/fis/pipeline", "vsglgen")
+
+    def test_wrong_type(self):
+        self.experiment["variants"]["fis"]["counts"][1] = "64"
+        self.assert_error("/variants/fis/counts/1", "'64' is not of type 'integer'")
+
+    def test_missing_key(self):
+        del self.experiment["reference"]["samples"]
+        self.assert_error("/reference", "samples")
+
+    def test_bad_name(self):
+        self.experiment["scenes"]["Big Hall"] = {"generate": ["atrium"]}
+        self.assert_error("/scenes", "Big Hall")
+
+    def test_count_given_twice(self):
+        self.experiment["variants"]["fis"]["pipeline"]["vsgl_gen"]["count"] = 5
+        self.assert_error("/variants/fis/pipeline/vsgl_gen/count", "/variants/fis/counts")
+
+    def test_samples_given_twice(self):
+        self.experiment["variants"]["paths"]["reference"]["samples"] = 5
+        self.assert_error("/variants/paths/reference/samples", "/variants/paths/samples")
+
+    def test_seed_of_the_reference(self):
+        self.experiment["reference"]["seed"] = 1
+        self.assert_error("/reference/seed", "paths")
+
+    def test_unknown_variant(self):
+        self.experiment["decompositions"]["split"]["steps"][1]["variant"] = "texel"
+        self.assert_error("/decompositions/split/steps/1/variant", "fis, fis-sharp, texels")
+
+    def test_decomposition_of_paths(self):
+        self.experiment["decompositions"]["split"]["variant"] = "paths"
+        self.assert_error("/decompositions/split/variant", "no variant")
+
+    def test_missing_counts(self):
+        self.experiment["decompositions"]["split"]["variant"] = "fis"
+        self.experiment["decompositions"]["split"]["steps"][0]["variant"] = "fis-sharp"
+        self.assert_error("/decompositions/split/steps/0/variant", "lacks numbers of lights")
+
+    def test_key_twice(self):
+        self.path.write_text('{"seeds": [1], "seeds": [2]}', encoding="utf-8")
+        with self.assertRaisesRegex(ExperimentError, "seeds"):
+            read_experiment(self.path)
+
+    def test_no_json(self):
+        self.path.write_text("{", encoding="utf-8")
+        with self.assertRaisesRegex(ExperimentError, "test.json"):
+            read_experiment(self.path)
+
+
+class Sharing(Files):
+    def test_equal_stages_are_one(self):
+        found = tools(self.plan())
+        # A scene: 2 variants x 64 and fis x 256, each x 2 seeds, and texels x 2 seeds.
+        self.assertEqual(found, {"scene-gen": 1, "rsm-bake": 2, "pdf-build": 2, "vsgl-gen": 2 * (2 + 2 + 2), "ismap": 2 * (2 + 2),
+                                 "shade": 2 * (2 + 2 + 2 + 2), "reference": 2 * (1 + 4), "compare": 2 * (8 + 4 + 1)})
+
+    def test_rows(self):
+        rows = self.plan().rows
+        self.assertEqual(len(rows), 2 * 2 * (2 + 1 + 1 + 2))
+        self.assertEqual(len({row["image"] for row in rows}), len(rows))
+
+    def test_shade_options_change_shade_and_compare_only(self):
+        before = self.plan().stages
+        self.experiment["variants"]["fis-sharp"]["pipeline"]["shade"]["cbr"] = 0.1
+        changed = {name.split("/")[0] for name in self.plan().stages.keys() - before.keys()}
+        self.assertEqual(changed, {"shade", "compare"})
+
+    def test_bake_options_change_all_but_the_scene(self):
+        before = self.plan().stages
+        self.experiment["rsm_bake"] = {"rsm_size": "64"}
+        after = self.plan().stages
+        self.assertEqual({name.split("/")[0] for name in after.keys() & before.keys()}, {"scene-gen"})
+
+    def test_fewest_lights_come_first(self):
+        stages = self.plan().stages
+        first = [stage for name, stage in stages.items() if name.startswith("vsgl-gen/box-fis-2016-64-s0")]
+        later = [stage for name, stage in stages.items() if name.startswith("vsgl-gen/box-fis-2016-256-")]
+        self.assertEqual((len(first), len(later)), (1, 2))
+        self.assertTrue(first[0]["warm_up"])
+        for stage in later:
+            self.assertEqual(stage["inputs"]["after"], first[0]["folder"] + "/times.json")
+            self.assertFalse(stage["warm_up"])
+
+    def test_frames(self):
+        self.experiment["frames"] = [0, 7]
+        plan = self.plan()
+        self.assertEqual(tools(plan)["rsm-bake"], 4)
+        self.assertEqual({stage["arguments"] for name, stage in plan.stages.items() if name.startswith("rsm-bake/")}, {"--frame 0", "--frame 7"})
+
+    def test_decomposition(self):
+        plan = self.plan()
+        self.assertEqual(len(plan.decompositions), 2)
+        stage = plan.stages[plan.decompositions[0]["comparison"].removeprefix("stages/").removesuffix("/comparison.json")]
+        words = stage["arguments"].split()
+        self.assertEqual([word.split("=")[0] for word in words], ["--step", "sampling", "--step", "clustering"])
+        self.assertEqual(words[1].count(".exr"), 2, "the mean of both seeds")
+        self.assertEqual(words[3].count(".exr"), 1)
+        self.assertEqual(set(stage["inputs"]["steps"]), {path for word in words[1::2] for path in word.split("=")[1].split(",")})
+
+
+class Figures(unittest.TestCase):
+    def test_pareto_front(self):
+        points = [(1, 9), (2, 5), (2, 6), (3, 5), (4, 7), (5, 1)]
+        self.assertEqual(pareto_front(points), [(1, 9), (2, 5), (5, 1)])
+
+    def test_numbers(self):
+        self.assertEqual(numbers({"a": 1, "b": {"c": 0.5, "d": None, "e": {"f": 2}}, "g": "text", "h": True, "i": [1]}),
+                         {"a": 1, "b.c": 0.5, "b.d": None, "b.e.f": 2})
+
+
+if __name__ == "__main__":
+    unittest.main()
