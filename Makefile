@@ -3,7 +3,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 
 PACKAGES := g++ cmake ninja-build ccache pkg-config git ca-certificates \
-  libopenexr-dev libopenimageio-dev openimageio-tools libassimp-dev libembree-dev libcli11-dev nlohmann-json3-dev libssl-dev zlib1g-dev libcsv-dev \
+  libopenexr-dev libopenimageio-dev openimageio-tools libassimp-dev libembree-dev libcli11-dev nlohmann-json3-dev libssl-dev zlib1g-dev libcsv-dev libboost-dev \
   libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools \
   libgtest-dev libbenchmark-dev glmark2-data assimp-testmodels \
   python3 python3-jsonschema python3-numpy python3-matplotlib python3-selenium help2man \

@@ -12,9 +12,9 @@ using metrics::Metric;
 
 std::string list_of_metrics() {
   std::string text;
-  for (const Metric& metric : metrics::all_metrics())
-    text += std::string(metric.name) + std::string(12 - metric.name.size(), ' ') +
-            std::string(metric.formula) + "\n";
+  for (const Metric* metric : metrics::all_metrics())
+    text += std::string(metric->name) + std::string(16 - metric->name.size(), ' ') +
+            std::string(metric->formula) + "\n";
   text.pop_back();
   return text;
 }
@@ -36,12 +36,16 @@ metrics::Options options_of(const FilesArguments& a, const CLI::App& app) {
   for (const std::string& name : a.metrics) options.metrics.push_back(&metric_named("--metric", name));
   const bool explicit_threshold =
       app.count("--threshold") + app.count("--fail-percent") + app.count("--hard-limit") > 0;
-  if (options.limits.empty() || explicit_threshold) {
+  if ((options.limits.empty() && !a.z_test) || explicit_threshold) {
     options.threshold = {a.threshold, a.fail_percent, a.hard_limit};
   } else {
     options.threshold.reset();
   }
   options.relmse_epsilon = a.relmse_epsilon;
+  options.layers.flip_mode = a.flip_mode == "hdr" ? metrics::FlipMode::hdr : metrics::FlipMode::ldr;
+  options.layers.flip_pixels_per_degree = a.flip_ppd;
+  options.layers.significance = a.significance;
+  options.z_test = a.z_test;
   options.allow_non_finite = a.allow_non_finite;
   options.channels = a.channels;
   options.exclude = a.exclude;
@@ -53,6 +57,7 @@ void summarise(Report& report, const metrics::Comparison& comparison, const nloh
   constexpr std::size_t kShown = 20;
   report.count("result", result["result"]);
   report.count("channels", comparison.channels.size());
+  report.count("layers", comparison.layers.size());
   report.count("failures", comparison.failures.size());
   for (std::size_t i = 0; i < std::min(kShown, comparison.failures.size()); ++i)
     report.warn(comparison.failures[i].message);
@@ -72,12 +77,23 @@ void declare_files(Tool& tool, FilesArguments& a) {
       ->check(CLI::Range(0.0, 100.0));
   app.add_option("--hard-limit", a.hard_limit, "|A - B| that no pixel may exceed (default: none)")
       ->check(CLI::NonNegativeNumber);
-  app.add_option(
-      "--limit", a.limits,
-      "METRIC=VALUE: bound on a metric of each channel; without --threshold only these bounds count");
+  app.add_option("--limit", a.limits,
+                 "METRIC=VALUE: bound on a metric of each channel or layer; without --threshold only these "
+                 "bounds count");
   app.add_option("--metric", a.metrics, "metrics to report (default: all)");
   app.add_option("--relmse-epsilon", a.relmse_epsilon, "epsilon of relmse (default: (mean|B| / 100)^2)")
       ->check(CLI::NonNegativeNumber);
+  app.add_option("--flip-mode", a.flip_mode,
+                 "hdr: over the exposures of a viewer; ldr: 0..1 is what a display shows")
+      ->check(CLI::IsMember({"hdr", "ldr"}));
+  app.add_option("--flip-ppd", a.flip_ppd, "pixels per degree of the viewer's field of view")
+      ->check(CLI::Range(1.0, 1000.0));
+  app.add_flag(
+      "--z-test", a.z_test,
+      "judge the layer indirect by the variance that B (and A) state; without --threshold only this counts");
+  app.add_option("--significance", a.significance,
+                 "chance that --z-test finds a difference where there is none")
+      ->check(CLI::Range(1e-9, 0.5));
   app.add_option("--channels", a.channels, "compare only these channels (flux.R) or layers (flux)");
   app.add_option("--exclude", a.exclude, "leave out these channels or layers");
   app.add_flag("--allow-non-finite", a.allow_non_finite,

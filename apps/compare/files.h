@@ -7,6 +7,7 @@
 #include "base/tool.h"
 #include "inputs.h"
 #include "maps.h"
+#include "stages/metrics/flip.h"
 
 namespace vsgl::app {
 
@@ -14,7 +15,9 @@ struct FilesArguments {
   double threshold = 0, fail_percent = 0;
   std::optional<double> hard_limit, relmse_epsilon;
   std::vector<std::string> limits, metrics, channels, exclude;
-  bool allow_non_finite = false;
+  bool allow_non_finite = false, z_test = false;
+  double significance = 0.05, flip_ppd = metrics::kFlipPixelsPerDegree;
+  std::string flip_mode = "hdr";
   MapArguments maps;
 };
 

@@ -1,6 +1,7 @@
 // compare A.exr B.exr: does A hold the same as the reference B?
 
 #include "files.h"
+#include "sequences.h"
 
 int main(int argc, char** argv) {
   vsgl::Tool tool("compare", "compares two artifacts: metrics, thresholds, error maps");
@@ -12,8 +13,12 @@ int main(int argc, char** argv) {
   // Each mode declares its flags here and is chosen below.
   vsgl::app::FilesArguments files;
   declare_files(tool, files);
+  vsgl::app::SequenceArguments sequences;
+  declare_sequences(tool, sequences);
 
   return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {
+    if (are_sequences(tool, inputs))
+      return compare_sequences(tool, inputs, sequences, files.maps.layer, files.limits, report, outputs);
     return compare_files(tool, inputs, files, report, outputs);
   });
 }

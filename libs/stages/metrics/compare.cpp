@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
+#include "stages/metrics/judging.h"
 #include "stages/metrics/pairing.h"
 
 namespace vsgl::metrics {
 namespace {
-
-std::string printed(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 // Compares one pair of files and collects what is found.
 class Comparer {
@@ -24,9 +18,7 @@ class Comparer {
 
   Comparison run() {
     for (const PartPair& pair : pair_parts(test_, reference_)) compare_parts(pair);
-    if (out_.channels.empty() && out_.failures.empty())
-      out_.failures.push_back(
-          {"nothing_compared", "", 0, "", "no channel was compared; check --channels and --exclude"});
+    check_coverage(options_, out_);
     return std::move(out_);
   }
 
@@ -47,6 +39,7 @@ class Comparer {
         compare_levels(pair.test->levels[l], pair.reference->levels[l]);
       }
     }
+    compare_layers(pair, test_.path, reference_.path, options_, out_);
   }
 
   void compare_levels(const ExrLevel& a, const ExrLevel& b) {
@@ -129,20 +122,11 @@ class Comparer {
       if (error > value) ++result.exceeding;
     }
     check_threshold(result, maximum.error);
-    for (const Metric& metric : all_metrics()) {
+    for (const ChannelMetric& metric : channel_metrics()) {
       const double v = metric.evaluate(a, b, options_.relmse_epsilon);
-      check_limits(metric, v, result.channel);
-      if (options_.metrics.empty() ||
-          std::find(options_.metrics.begin(), options_.metrics.end(), &metric) != options_.metrics.end())
-        result.metrics.emplace_back(&metric, v);
+      check_limits(metric, v, part_, level_, result.channel, options_, out_);
+      if (is_reported(options_, metric)) result.metrics.emplace_back(&metric, v);
     }
-  }
-
-  void check_limits(const Metric& metric, double value, const std::string& channel) {
-    for (const auto& [limited, limit] : options_.limits)
-      if (limited == &metric && !within_limit(metric, value, limit))
-        fail("limit", channel,
-             std::string(metric.name) + " is " + printed(value) + ", beyond the limit " + printed(limit));
   }
 
   void check_threshold(const ChannelResult& result, double maximum) {
@@ -177,12 +161,7 @@ class Comparer {
   }
 
   void fail(const std::string& kind, const std::string& channel, const std::string& what) {
-    std::string place;
-    if (!part_.empty()) place += "part '" + part_ + "', ";
-    if (level_ > 0) place += "level " + std::to_string(level_) + ", ";
-    if (!channel.empty()) place += "channel '" + channel + "', ";
-    if (!place.empty()) place.replace(place.size() - 2, 2, ": ");
-    out_.failures.push_back({kind, part_, level_, channel, place + what});
+    out_.failures.push_back(make_failure(kind, part_, level_, channel, what));
   }
 
   const ExrFile &test_, &reference_;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Comparison of two artifacts, part by part, mip level by mip level and channel by channel. docs/compare.md
-// is its manual.
+// Comparison of two artifacts, part by part, mip level by mip level and channel by channel, and of layers of
+// radiance as images. docs/compare.md is its manual.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "image/exr.h"
-#include "stages/metrics/metrics.h"
+#include "stages/metrics/layer_metrics.h"
 
 namespace vsgl::metrics {
 
@@ -25,8 +25,10 @@ struct Threshold {
 
 struct Options {
   std::optional<Threshold> threshold = Threshold{};      // none: only `limits` decide
-  std::vector<std::pair<const Metric*, double>> limits;  // of every FLOAT channel
+  std::vector<std::pair<const Metric*, double>> limits;  // of every FLOAT channel, or of every layer
   std::vector<const Metric*> metrics;                    // to report; empty: all
+  LayerOptions layers;
+  bool z_test = false;  // judges the layer `indirect` by the variance of its channels; the reference has one
   std::optional<double> relmse_epsilon;
   bool allow_non_finite = false;  // pixels that are not finite on both sides are left out either way
   // Channels ("flux.R") or layers ("flux"). Empty `channels`: all. Each must be in one of the files.
@@ -34,7 +36,8 @@ struct Options {
 };
 
 // Why the two differ. `kind`: missing_part, missing_level, missing_channel, channel_type, size, non_finite,
-// threshold, hard_limit, limit, nothing_compared.
+// threshold, hard_limit, limit, z_exact (pixels without variance differ), z_pixel, z_rms, z_mean,
+// nothing_compared.
 struct Failure {
   std::string kind, part;
   int level = 0;
@@ -55,11 +58,13 @@ struct ChannelResult {
 
 struct Comparison {
   std::vector<ChannelResult> channels;
+  std::vector<LayerResult> layers;  // indirect, diffuse, specular, direct: those that both files have in RGB
   std::vector<Failure> failures;
   bool identical() const;  // no failure and no pixel that differs
 };
 
-// Throws bad_value when a name of `channels` or `exclude` is in neither file.
+// Throws bad_value when a name of `channels` or `exclude` is in neither file; missing_channel when a z-test
+// is asked for and the reference has no variance; invalid_data when a variance is none.
 Comparison compare(const ExrFile& test, const ExrFile& reference, const Options& options);
 
 // The result as vsgltools/compare/1 (configs/schema/compare.schema.json). Numbers that are not finite become

@@ -1,19 +1,9 @@
-#include <cmath>
 #include <filesystem>
 
-#include "stages/metrics/compare.h"
+#include "stages/metrics/json_values.h"
 
 namespace vsgl::metrics {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-Json number(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
-}
 
 // The file's name without its folder, and the kind of artifact that it says it is.
 Json describe(const ExrFile& file) {
@@ -59,8 +49,9 @@ nlohmann::ordered_json to_json(const Comparison& comparison, const ExrFile& test
                                const Options& options) {
   Json limits = Json::object();
   for (const auto& [metric, limit] : options.limits) limits[std::string(metric->name)] = limit;
-  Json channels = Json::array(), failures = Json::array();
+  Json channels = Json::array(), layers = Json::array(), failures = Json::array();
   for (const ChannelResult& result : comparison.channels) channels.push_back(describe(result));
+  for (const LayerResult& result : comparison.layers) layers.push_back(describe(result, options));
   for (const Failure& failure : comparison.failures) failures.push_back(describe(failure));
   const char* verdict = !comparison.failures.empty() ? "differs"
                         : comparison.identical()     ? "same"
@@ -73,7 +64,9 @@ nlohmann::ordered_json to_json(const Comparison& comparison, const ExrFile& test
           {"limits", limits},
           {"relmse_epsilon", number(options.relmse_epsilon)},
           {"allow_non_finite", options.allow_non_finite},
+          {"z_test", options.z_test},
           {"channels", channels},
+          {"layers", layers},
           {"failures", failures}};
 }
 

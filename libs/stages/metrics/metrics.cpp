@@ -105,46 +105,41 @@ std::size_t non_finite_count(Pixels pixels) {
       std::count_if(pixels.begin(), pixels.end(), [](float v) { return !std::isfinite(v); }));
 }
 
-std::span<const Metric> all_metrics() {
+std::span<const ChannelMetric> channel_metrics() {
   using Epsilon = std::optional<double>;
-  static constexpr Metric kMetrics[] = {
-      {"mse", "mean (a-b)^2", Ideal::zero,
+  static constexpr ChannelMetric kMetrics[] = {
+      {{"mse", "mean (a-b)^2", 0, Better::lower},
        [](Pixels a, Pixels b, Epsilon) { return mean_squared_error(a, b); }},
-      {"rmse", "sqrt(mse)", Ideal::zero,
+      {{"rmse", "sqrt(mse)", 0, Better::lower},
        [](Pixels a, Pixels b, Epsilon) { return root_mean_squared_error(a, b); }},
-      {"relmse", "mean (a-b)^2 / (b^2 + e), e = (mean|b| / 100)^2 or --relmse-epsilon", Ideal::zero,
+      {{"relmse", "mean (a-b)^2 / (b^2 + e), e = (mean|b| / 100)^2 or --relmse-epsilon", 0, Better::lower},
        [](Pixels a, Pixels b, Epsilon e) { return relative_mse(a, b, e ? *e : relative_mse_epsilon(b)); }},
-      {"mrse", "mean ((a-b) / b)^2 over pixels with b != 0", Ideal::zero,
+      {{"mrse", "mean ((a-b) / b)^2 over pixels with b != 0", 0, Better::lower},
        [](Pixels a, Pixels b, Epsilon) { return mean_relative_squared_error(a, b); }},
-      {"mae", "mean |a-b|", Ideal::zero,
+      {{"mae", "mean |a-b|", 0, Better::lower},
        [](Pixels a, Pixels b, Epsilon) { return mean_absolute_error(a, b); }},
-      {"smape", "mean 2|a-b| / (|a|+|b|)", Ideal::zero,
+      {{"smape", "mean 2|a-b| / (|a|+|b|)", 0, Better::lower},
        [](Pixels a, Pixels b, Epsilon) { return symmetric_mean_absolute_percentage_error(a, b); }},
-      {"psnr_db", "10 log10((max b)^2 / mse)", Ideal::infinite,
+      {{"psnr_db", "10 log10((max b)^2 / mse)", kInfinity, Better::higher},
        [](Pixels a, Pixels b, Epsilon) { return peak_signal_to_noise_ratio(a, b); }},
-      {"max_error", "max |a-b|", Ideal::zero,
+      {{"max_error", "max |a-b|", 0, Better::lower},
        [](Pixels a, Pixels b, Epsilon) { return maximum_error(a, b).error; }},
-      {"bias", "mean(a) / mean(b)", Ideal::one, [](Pixels a, Pixels b, Epsilon) { return bias(a, b); }},
+      {{"bias", "mean(a) / mean(b)", 1, Better::nearer},
+       [](Pixels a, Pixels b, Epsilon) { return bias(a, b); }},
   };
   return kMetrics;
 }
 
-const Metric* find_metric(std::string_view name) {
-  for (const Metric& metric : all_metrics())
-    if (metric.name == name) return &metric;
-  return nullptr;
-}
-
 bool within_limit(const Metric& metric, double value, double limit) {
-  switch (metric.ideal) {
-    case Ideal::zero:
+  switch (metric.better) {
+    case Better::lower:
       return value <= limit;
-    case Ideal::infinite:
+    case Better::higher:
       return value >= limit;
-    case Ideal::one:
-      return std::abs(value - 1) <= limit;
+    case Better::nearer:
+      return std::abs(value - metric.ideal) <= limit;
   }
-  throw Error(ErrorCode::internal, "unknown Ideal");
+  throw Error(ErrorCode::internal, "unknown Better");
 }
 
 }  // namespace vsgl::metrics

@@ -48,20 +48,24 @@ Maximum maximum_error(Pixels test, Pixels reference);
 // How many values are NaN or infinite.
 std::size_t non_finite_count(Pixels pixels);
 
-// The table behind --list-metrics, --metric, --limit and the result's JSON.
-enum class Ideal { zero, infinite, one };  // the value of equal signals
+// What --list-metrics, --metric, --limit and the result's JSON say of a metric.
+enum class Better { lower, higher, nearer };  // which of two values is better; nearer: to the ideal
 struct Metric {
   std::string_view name;     // JSON key: "relmse"
   std::string_view formula;  // one line of text
-  Ideal ideal;
+  double ideal;              // the value of equal signals
+  Better better;
+};
+
+// A metric of one channel.
+struct ChannelMetric : Metric {
   // `relmse_epsilon`: replaces relative_mse_epsilon() where given.
   double (*evaluate)(Pixels test, Pixels reference, std::optional<double> relmse_epsilon);
 };
-std::span<const Metric> all_metrics();
-// nullptr when there is none of that name.
-const Metric* find_metric(std::string_view name);
-// Whether `value` is on the right side of `limit`: at most (ideal 0), at least (infinite), |value - 1| at
-// most (one).
+std::span<const ChannelMetric> channel_metrics();
+
+// Whether `value` is on the right side of `limit`: at most (lower), at least (higher), at most so far from
+// the ideal (nearer).
 bool within_limit(const Metric& metric, double value, double limit);
 
 }  // namespace vsgl::metrics

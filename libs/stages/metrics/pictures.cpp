@@ -6,17 +6,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "math/vec.h"
-#include "stages/metrics/pairing.h"
 
 namespace vsgl::metrics {
 namespace {
-
-using Colour = std::array<float, 3>;
-
-double luminance_of(const Colour& c) {
-  return luminance({static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])});
-}
 
 // The sRGB transfer function (IEC 61966-2-1), to 8 bits.
 std::uint8_t encode(double linear) {
@@ -36,43 +28,6 @@ std::array<double, 3> oklab_to_linear(double lightness, double a, double b) {
           -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
 }
 
-const std::vector<float>* find_floats(const ExrPart& part, const std::string& name) {
-  const auto& channels = part.levels.front().channels;
-  const auto it = channels.find(name);
-  return it == channels.end() ? nullptr : std::get_if<std::vector<float>>(&it->second);
-}
-
-// The channels of a layer: name.R/G/B, or one channel three times.
-std::optional<std::array<const std::vector<float>*, 3>> planes_of(const ExrPart& part,
-                                                                  const std::string& name) {
-  if (const auto* grey = find_floats(part, name)) return {{grey, grey, grey}};
-  const auto *r = find_floats(part, name + ".R"), *g = find_floats(part, name + ".G"),
-             *b = find_floats(part, name + ".B");
-  if (!r || !g || !b) return std::nullopt;
-  return {{r, g, b}};
-}
-
-// Layers in the order of preference.
-std::vector<std::string> candidates(const ExrPart& part) {
-  std::vector<std::string> names = {"indirect"};
-  for (const auto& [channel, plane] : part.levels.front().channels)
-    if (channel.ends_with(".R")) names.push_back(channel.substr(0, channel.size() - 2));
-  for (const auto& [channel, plane] : part.levels.front().channels)
-    if (std::holds_alternative<std::vector<float>>(plane)) names.push_back(channel);
-  return names;
-}
-
-std::optional<LayerPair> extract(const PartPair& pair, const std::string& name) {
-  const auto a = planes_of(*pair.test, name), b = planes_of(*pair.reference, name);
-  if (!a || !b) return std::nullopt;
-  LayerPair out{name, pair.reference->width(), pair.reference->height(), {}, {}};
-  for (std::size_t i = 0; i < (*b)[0]->size(); ++i) {
-    out.test.push_back({(*(*a)[0])[i], (*(*a)[1])[i], (*(*a)[2])[i]});
-    out.reference.push_back({(*(*b)[0])[i], (*(*b)[1])[i], (*(*b)[2])[i]});
-  }
-  return out;
-}
-
 void put(Picture& picture, int x, int y, const std::array<std::uint8_t, 3>& colour) {
   const std::size_t index = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                                  static_cast<std::size_t>(x));
@@ -85,23 +40,6 @@ Picture blank(int width, int height) {
 }
 
 }  // namespace
-
-std::optional<LayerPair> choose_layer(const ExrFile& test, const ExrFile& reference,
-                                      const std::string& name) {
-  for (const PartPair& pair : pair_parts(test, reference)) {
-    if (!pair.test || !pair.reference) continue;
-    if (pair.test->width() != pair.reference->width() || pair.test->height() != pair.reference->height())
-      continue;
-    for (const std::string& candidate : name.empty() ? candidates(*pair.reference) : std::vector{name})
-      if (auto layer = extract(pair, candidate)) return layer;
-  }
-  if (!name.empty())
-    throw Error(ErrorCode::bad_value,
-                "--layer " + name +
-                    ": the files have no such layer in common; name an RGB layer (diffuse) "
-                    "or a FLOAT channel (depth.Z) of both");
-  return std::nullopt;
-}
 
 std::array<std::uint8_t, 3> map_colour(double t) {
   // Oklab (lightness, a, b) at equal steps of lightness; inside the sRGB gamut along the whole way.
@@ -138,18 +76,6 @@ Picture false_colour(const LayerPair& layer) {
     std::copy(colour.begin(), colour.end(), out.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
   }
   return out;
-}
-
-double automatic_exposure(const LayerPair& layer) {
-  std::vector<double> values;
-  for (const Colour& c : layer.reference) {
-    const double v = luminance_of(c);
-    if (std::isfinite(v) && v > 0) values.push_back(v);
-  }
-  if (values.empty()) return 0;
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
-  std::nth_element(values.begin(), nth, values.end());
-  return std::log2(0.8 / *nth);
 }
 
 Picture side_by_side(const LayerPair& layer, double exposure) {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "image/exr.h"
 #include "stages/metrics/compare.h"
+#include "stages/metrics/layer.h"
 
 namespace vsgl::metrics {
 
@@ -25,25 +25,11 @@ struct Picture {
   std::vector<std::uint8_t> rgb;
 };
 
-// One layer of both files as linear colour: an RGB layer, or a single FLOAT channel as grey.
-struct LayerPair {
-  std::string name;
-  int width = 0, height = 0;
-  std::vector<std::array<float, 3>> test, reference;
-};
-// Level 0 of layer `name`; without a name `indirect`, or else the first RGB layer, or else the first FLOAT
-// channel. Nothing when the files share no such layer of one size. Throws bad_value when `name` is given and
-// not there.
-std::optional<LayerPair> choose_layer(const ExrFile& test, const ExrFile& reference, const std::string& name);
-
 // Error of the luminance relative to the reference, |a - b| / (|b| + mean|b| / 100), on a logarithmic scale:
 // 1e-4 and less is the dark end of the map, 1 and more the bright end. Pixels that are not finite are green,
 // which the map has nowhere.
 Picture false_colour(const LayerPair& layer);
 
-// Exposure in stops that brings the 95th percentile of the reference's positive luminances to 0.8; 0 when
-// there is none.
-double automatic_exposure(const LayerPair& layer);
 // Test | reference | false colour. The first two scaled by 2^exposure, cut to 0..1, sRGB.
 Picture side_by_side(const LayerPair& layer, double exposure);
 
