@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 
+#include "base/frame_name.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/option_json.h"
@@ -208,7 +209,7 @@ void Tool::check_conflicts() const {
 void Tool::check_files() const {
   for (const auto& [option, path] : inputs_) {
     std::error_code ignored;
-    if (path->empty() || fs::exists(*path, ignored)) continue;
+    if (path->empty() || names_frames(*path) || fs::exists(*path, ignored)) continue;
     throw Error(ErrorCode::file_not_found,
                 path->string() + ": no such file (" + options::long_name(*option) + ")");
   }
@@ -234,7 +235,7 @@ Provenance Tool::provenance() const {
   if (hashed_.empty()) {
     std::vector<fs::path> files;
     for (const auto& [option, path] : inputs_) {
-      if (!path->empty()) files.push_back(*path);
+      if (!path->empty() && !names_frames(*path)) files.push_back(*path);
     }
     files.insert(files.end(), dependencies_.begin(), dependencies_.end());
     for (const fs::path& file : files) hashed_.push_back({file.filename().string(), sha256_file(file)});

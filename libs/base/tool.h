@@ -51,7 +51,7 @@ class Tool {
   const CommonOptions& common() const { return common_; }
 
   // An input file: hashed into the provenance (only its name enters the command line). Must exist when run()
-  // starts.
+  // starts. A name of a sequence (base/frame_name.h) is neither hashed nor looked for: that is for the body.
   CLI::Option* input(const std::string& flags, std::filesystem::path& path, const std::string& help);
   // An output file: not part of the provenance; checked against --overwrite and for a writable folder before
   // work begins.
