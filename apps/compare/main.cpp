@@ -1,5 +1,6 @@
 // compare A.exr B.exr: does A hold the same as the reference B?
 
+#include "decomposition.h"
 #include "files.h"
 #include "sequences.h"
 
@@ -15,10 +16,14 @@ int main(int argc, char** argv) {
   declare_files(tool, files);
   vsgl::app::SequenceArguments sequences;
   declare_sequences(tool, sequences);
+  vsgl::app::DecompositionArguments decomposition;
+  declare_decomposition(tool, decomposition);
 
   return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {
     if (are_sequences(tool, inputs))
       return compare_sequences(tool, inputs, sequences, files.maps.layer, files.limits, report, outputs);
+    if (is_decomposition(tool, decomposition))
+      return decompose_error(tool, inputs, decomposition, files.maps.layer, files.limits, report, outputs);
     return compare_files(tool, inputs, files, report, outputs);
   });
 }

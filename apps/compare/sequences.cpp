@@ -25,17 +25,23 @@ std::pair<int, int> read_range(const std::string& text) {
   return {first, last};
 }
 
+const metrics::FlickerMetric& metric_named(const std::string& name) {
+  std::string names;
+  for (const metrics::FlickerMetric& metric : metrics::flicker_metrics()) {
+    if (metric.name == name) return metric;
+    names += (names.empty() ? "" : ", ") + std::string(metric.name);
+  }
+  throw Error(ErrorCode::bad_value, "--limit " + name + ": no metric of sequences; they have " + names);
+}
+
 metrics::FlickerLimits limits_of(const std::vector<std::string>& texts) {
   metrics::FlickerLimits limits;
   for (const std::string& text : texts) {
-    const std::size_t equals = std::min(text.find('='), text.size());
-    const metrics::FlickerMetric* found = nullptr;
-    for (const metrics::FlickerMetric& metric : metrics::flicker_metrics())
-      if (metric.name == text.substr(0, equals)) found = &metric;
-    if (!found)
-      throw Error(ErrorCode::bad_value,
-                  "--limit " + text + ": must be METRIC=VALUE with a metric of sequences, as flicker=0.01");
-    limits.emplace_back(found, number_of("--limit " + text, text.substr(std::min(equals + 1, text.size()))));
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos)
+      throw Error(ErrorCode::bad_value, "--limit " + text + ": must be METRIC=VALUE, as flicker=0.01");
+    limits.emplace_back(&metric_named(text.substr(0, equals)),
+                        number_of("--limit " + text, text.substr(equals + 1)));
   }
   return limits;
 }
