@@ -16,7 +16,7 @@ JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 SOURCES = $(shell git ls-files 'apps/*.cpp' 'libs/*.cpp' 'libs/*.h' 'tests/*.cpp' 'tests/*.h' 'shaders/interop/*.h')
 
-.PHONY: help setup setup-lint configure build demo test bench asan tidy format format-check install golden-update clean
+.PHONY: help setup setup-lint configure build demo test experiment bench asan tidy format format-check install golden-update clean
 
 help: ## show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -40,8 +40,16 @@ demo: configure ## build the tools, run the chain on the demo scenes into out/de
 test: build ## build and run every test
 	@cd $(BUILD) && VSGL_VALIDATION=1 ctest --output-on-failure --no-tests=error -j $(JOBS)
 
-bench: build ## time the shading kernel against native code, and the demo chain stage by stage
-	@python3 configs/workflow/bench.py --bin $(BUILD)/bin --output out/bench
+# JOBS there means tools at once, and more than one disturbs the times; ARGS goes to snakemake.
+NAME ?= error-vs-time
+experiment: EXPERIMENT_JOBS = $(if $(filter command line environment,$(origin JOBS)),$(JOBS),1)
+experiment: configure ## run configs/experiments/NAME.json into out/experiments/NAME (JOBS=n at once; ARGS for snakemake)
+	@cmake --build --preset $(PRESET) --target tools
+	@/usr/bin/python3 configs/workflow/experiment.py configs/experiments/$(NAME).json --bin $(BUILD)/bin \
+	  --output out/experiments/$(NAME) --jobs $(EXPERIMENT_JOBS) --snakemake="$(ARGS)"
+
+bench: build ## time the shading kernel against native code, the demo chain stage by stage, and error against time of a small experiment
+	@/usr/bin/python3 configs/workflow/bench.py --bin $(BUILD)/bin --output out/bench
 
 asan: ## the test run under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory build PRESET=asan

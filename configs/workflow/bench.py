@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The benchmark: the shading kernel against native code on the same data, and the demo chain stage by stage.
+"""The benchmark: the shading kernel against native code on the same data, the demo chain stage by stage, and error against time of a small
+experiment.
 
-Times are medians of several runs, first cold (empty shader cache) and then warm. Nothing here is a pass or fail: figures are
+Times of the chain are medians of several runs, first cold (empty shader cache) and then warm. Nothing here is a pass or fail: figures are
 for comparison inside one run, as ratios."""
 
 import argparse
@@ -16,6 +17,8 @@ import tempfile
 
 from chain import StageFailed, phases
 from demo import SCENES, run_scene
+
+WORKFLOW = pathlib.Path(__file__).resolve().parent
 
 
 def kernel(bin_dir, target):
@@ -32,6 +35,24 @@ def chain_times(bin_dir, folder, repetitions):
         runs.append({row["stage"]: row["wall_s"] for row in chain.rows})
     costs = [(seconds, row["stage"], name) for row in chain.rows for name, seconds in phases(row["result"]).items()]
     return runs, sorted(costs, reverse=True)
+
+
+def experiment(bin_dir, folder):
+    """Runs configs/experiments/small.json; returns the rows of its table. What is there already is not timed again."""
+    subprocess.run([sys.executable, str(WORKFLOW / "experiment.py"), str(WORKFLOW.parent / "experiments" / "small.json"), "--bin", str(bin_dir),
+                    "--output", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    return json.loads((folder / "results.json").read_text(encoding="utf-8"))["rows"]
+
+
+def print_experiment(rows):
+    """Time and error of each image."""
+    metrics = ["relmse_denoised", "relmse_trimmed", "flip", "luminance_bias"]
+    print("\nexperiment small: 160x90, RSM 128x128\n" +
+          f"{'scene':<16}{'variant':<14}{'N':>6}{'time s':>9}{'with files':>12}" + "".join(f"{name:>17}" for name in metrics))
+    for row in rows:
+        times = row["times"]
+        print(f"{row['scene']:<16}{row['variant']:<14}{row['n']:>6}{times['time_s']:>9.3f}{times['time_with_files_s']:>12.3f}" +
+              "".join(f"{row['metrics'][name]:>17.5f}" for name in metrics))
 
 
 def main():
@@ -61,6 +82,9 @@ def main():
 
     result["chain"] = {"cold_s": cold[0], "warm_s": median, "runs": warm,
                        "costs": [{"stage": stage, "phase": name, "seconds": seconds} for seconds, stage, name in costs]}
+    result["experiment"] = experiment(options.bin, options.output / "small")
+    print_experiment(result["experiment"])
+
     target = options.output / "bench.json"
     target.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
     print(f"results: {target}")

@@ -104,7 +104,7 @@ def run_snakemake(folder, bin_dir, threads, jobs, further, lock):
     """Its exit status. Its own locks are off: they would outlive a killed run. Folders are named after options, so that the times of files
     are all that a rerun needs to look at."""
     command = [SNAKEMAKE, "--snakefile", WORKFLOW / "Snakefile", "--directory", folder, "--scheduler", "greedy", "--nolock",
-               "--rerun-incomplete", "--rerun-triggers", "mtime", "--drop-metadata", "--quiet", "rules"]
+               "--rerun-incomplete", "--rerun-triggers", "mtime", "--drop-metadata", "--quiet", "all"]
     if not {"--profile", "--cluster", "--cores"} & set(further):
         command += ["--cores", str(jobs * threads)]
     settings = [f"bin={bin_dir}", f"workflow={WORKFLOW}", f"threads={threads}", f"jobs={jobs}", f"python={PYTHON}"]
@@ -130,7 +130,7 @@ def main():
     write_inputs(plan, folder, bin_dir)
     threads = options.threads or max(1, len(os.sched_getaffinity(0)) // options.jobs)
     status = run_snakemake(folder, bin_dir, threads, options.jobs, options.snakemake, lock)
-    if status != 0:
+    if status != 0 or {"-n", "--dry-run", "--dryrun"} & set(options.snakemake):
         return status
     remove_strangers(plan, folder, "--notemp" in options.snakemake)
     print(f"results: {folder}/report.html, results.csv, results.json")

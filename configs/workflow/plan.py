@@ -134,7 +134,7 @@ class Plan:
             return self.stage(tool, [scene, at(frame), *label], inputs, pipeline.get(key, {}) | further, arguments, (*origin, key))
 
         def method(key):
-            return pipeline.get(key, {}).get("method")
+            return (pipeline.get(key) or {}).get("method")
 
         bake = self.bake(scene, frame, pipeline.get("rsm_bake"), (*origin, "rsm_bake") if "rsm_bake" in pipeline else ("rsm_bake",))
         rsm, gbuffer = f"{bake}/rsm.exr", f"{bake}/gbuffer.exr"
@@ -144,7 +144,8 @@ class Plan:
         stages["vsgl-gen"] = stage("vsgl-gen", [method("vsgl_gen"), n, f"s{seed}"], inputs, ["--seed", str(seed)], **count)
         inputs = {"gbuffer": gbuffer, "lights": f"{stages['vsgl-gen']}/lights.exr"}
         if pipeline.get("ismap", {}) is not None:
-            stages["ismap"] = stage("ismap", [method("vsgl_gen"), n, f"s{seed}"], {"scene": self.scene(scene), **inputs}, frame_arguments(frame))
+            seen = {"scene": self.scene(scene), "lights": inputs["lights"]} | ({"gbuffer": gbuffer} if method("ismap") == "raytraced" else {})
+            stages["ismap"] = stage("ismap", [method("vsgl_gen"), n, f"s{seed}", method("ismap")], seen, frame_arguments(frame))
             inputs["ism"] = f"{stages['ismap']}/ism.exr"
         stages["shade"] = stage("shade", [method("shade"), n, f"s{seed}"], inputs)
         return f"{stages['shade']}/indirect.exr", stages
@@ -161,6 +162,7 @@ class Plan:
         """All images of one frame of a scene, and their comparison with its reference."""
         options = {key: value for key, value in self.experiment["reference"].items() if key != "seed"}
         truth = self.trace(scene, frame, options, self.experiment["reference"]["seed"], ("reference",))
+        self.stages[str(pathlib.PurePath(truth).parent.relative_to("stages"))]["checkpoint"] = True  # long, and its time does not count
         images = {}
         for name, variant in self.experiment["variants"].items():
             first = None
@@ -183,7 +185,7 @@ class Plan:
                 continue
             stage, before = (self.stages[folder.removeprefix("stages/")] for folder in (stages[tool], first[tool]))
             if stage is not before:
-                stage["inputs"]["after"] = f"{before['folder']}/times.json"
+                stage["inputs"]["after"] = f"{before['folder']}/report.json"
                 before["warm_up"] = True
 
     def decompose(self, scene, frame, name, decomposition, images, truth):

@@ -7,11 +7,13 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 
 # Okabe and Ito's palette, told apart with any colour vision, and a marker each for print without colour.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
-LABELS = {"relmse": "relMSE", "relmse_trimmed": "relMSE, trimmed", "flip": "FLIP", "time_s": "time without files, s", "n": "lights, or samples a pixel"}
+LABELS = {"relmse_rgb": "relMSE", "relmse_denoised": "relMSE, less the reference's noise", "relmse_trimmed": "relMSE, trimmed", "flip": "FLIP",
+          "luminance_bias": "mean over the reference's", "time_s": "time without files, s", "n": "lights, or samples a pixel"}
 STYLE = {"svg.hashsalt": "vsgltools", "svg.fonttype": "path", "font.size": 9, "axes.grid": True, "axes.grid.which": "both", "grid.linewidth": 0.4,
          "grid.color": "#d8d8d8", "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False}
 
@@ -47,6 +49,14 @@ def series(rows, scene, metric, x):
     return found
 
 
+def twos_and_fives(axis):
+    """Labels of an axis between its powers of ten, where there are few of these."""
+    low, high = axis.get_view_interval()
+    if high > 300 * low:
+        return matplotlib.ticker.NullFormatter()
+    return matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}" if f"{value:e}"[0] in "25" else "")
+
+
 def draw(axes, curves, variants, x, metric):
     """One scene's curves."""
     for variant, points in curves.items():
@@ -57,8 +67,10 @@ def draw(axes, curves, variants, x, metric):
         front = pareto_front([point for points in curves.values() for point in points])
         axes.plot(*zip(*front), color="#404040", linewidth=0.8, linestyle=":", marker="o", markersize=9, markerfacecolor="none",
                   label="Pareto front", zorder=1)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    for scale, axis in ((axes.set_xscale, axes.xaxis), (axes.set_yscale, axes.yaxis)):
+        scale("log")
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(twos_and_fives(axis))
     axes.set_xlabel(LABELS[x])
     axes.set_ylabel(LABELS.get(metric, metric))
 

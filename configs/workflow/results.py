@@ -14,10 +14,10 @@ def read_json(path):
 
 def stage_times(folder):
     """Seconds of a stage: its phases without and with the reading and writing of files, and the process from start to end."""
-    times = read_json(f"{folder}/times.json")
-    phases = [(phase["name"].split()[0] in ("read", "write"), phase["host_s"]) for phase in times["phases"]]
-    return {"time_s": sum(seconds for files, seconds in phases if not files), "time_with_files_s": sum(seconds for _, seconds in phases),
-            "wall_s": times["wall_s"], "jobs": times["jobs"], "threads": times["threads"], "processor": times["processor"]}
+    report = read_json(f"{folder}/report.json")
+    phases = [(phase["name"].split()[0] in ("read", "write"), phase["host_s"]) for phase in report["phases"]]
+    process = {key: report["process"][key] for key in ("wall_s", "jobs", "threads", "processor")}
+    return {"time_s": sum(seconds for files, seconds in phases if not files), "time_with_files_s": sum(seconds for _, seconds in phases), **process}
 
 
 def row_times(folders):
@@ -29,23 +29,10 @@ def row_times(folders):
     return {**sums, "stages": {tool: stage["time_s"] for tool, stage in stages.items()}, **conditions}
 
 
-def numbers(value, prefix=""):
-    """The numeric leaves of a JSON object, by dotted names."""
-    found = {}
-    for key, entry in value.items():
-        if isinstance(entry, dict):
-            found.update(numbers(entry, f"{prefix}{key}."))
-        elif entry is None or (isinstance(entry, (int, float)) and not isinstance(entry, bool)):
-            found[prefix + key] = entry
-    return found
-
-
 def metrics(comparison):
-    """All figures that compare gives for the layer `indirect`."""
-    found = numbers(read_json(comparison)["layers"]["indirect"])
-    if not found:
-        raise ValueError(f"{comparison}: no figures of the layer indirect")
-    return found
+    """The figures that compare gives for the layer `indirect`, and the standard error of its luminance's bias."""
+    layer = next(layer for layer in read_json(comparison)["layers"] if layer["layer"] == "indirect")
+    return layer["metrics"] | {"luminance_bias_error": layer["luminance_bias"]["standard_error"]}
 
 
 def write_csv(rows, target):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs one tool of the chain for the workflow, in its stage's folder: keeps the tool's JSON as report.json and all that was measured apart
-from it, in times.json, so that everything else is the same bytes in every run.
+"""Runs one tool of the chain for the workflow, in its stage's folder. report.json keeps what the tool tells and what its process took:
+all that was measured is there, so that everything else is the same bytes in every run.
 
 The folder is locked while the tool runs. A tool that outlives a workflow killed half-way is so waited for, not met."""
 
@@ -62,17 +62,15 @@ def main():
     lock = os.open(options.folder, os.O_RDONLY | os.O_DIRECTORY)
     fcntl.flock(lock, fcntl.LOCK_EX)
     remove_leftovers(options.folder)
-    command = [*options.command, "--threads", str(options.threads), "--json", "--overwrite", "--progress", "never"]
+    command = [*options.command, "--threads", str(options.threads), "--json", "--overwrite", "--quiet"]
     if options.warm_up:
         measure(command, lock)
     done, measured = measure(command, lock)
     if done.returncode not in options.accept:
         sys.exit(f"stage: {' '.join(options.command)} ended with status {done.returncode}")
-    result = json.loads(done.stdout)
-    times = {"phases": result.pop("phases"), **measured, "threads": options.threads, "jobs": options.jobs, "host": platform.node(),
-             "processor": processor()}
-    write_json(options.folder / "report.json", result)
-    write_json(options.folder / "times.json", times)
+    process = {**measured, "threads": options.threads, "jobs": options.jobs, "host": platform.node(), "processor": processor()}
+    write_json(options.folder / "report.json", {**json.loads(done.stdout), "process": process})
+    print(f"{measured['wall_s']:8.1f} s  {options.folder.parent.name}/{options.folder.name}", file=sys.stderr)
 
 
 if __name__ == "__main__":

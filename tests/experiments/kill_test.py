@@ -18,7 +18,7 @@ KILLS = 10
 
 def progress(folder):
     """How many steps are done: stages, table, plots, report."""
-    return len(list(folder.glob("stages/*/*/times.json"))) + sum((folder / name).exists() for name in ("results.json", "report-spec.json", "report.html"))
+    return len(list(folder.glob("stages/*/*/report.json"))) + sum((folder / name).exists() for name in ("results.json", "report-spec.json", "report.html"))
 
 
 def run_until(bin_dir, folder, steps, delay):

@@ -13,7 +13,6 @@ sys.path.insert(0, str(ROOT / "configs" / "workflow"))
 
 from plan import ExperimentError, Plan, read_experiment  # noqa: E402
 from plots import pareto_front  # noqa: E402
-from results import numbers  # noqa: E402
 
 EXPERIMENT = {
     "$schema": "vsgltools/experiment/1",
@@ -153,7 +152,7 @@ class Sharing(Files):
         self.assertEqual((len(first), len(later)), (1, 2))
         self.assertTrue(first[0]["warm_up"])
         for stage in later:
-            self.assertEqual(stage["inputs"]["after"], first[0]["folder"] + "/times.json")
+            self.assertEqual(stage["inputs"]["after"], first[0]["folder"] + "/report.json")
             self.assertFalse(stage["warm_up"])
 
     def test_frames(self):
@@ -177,10 +176,6 @@ class Figures(unittest.TestCase):
     def test_pareto_front(self):
         points = [(1, 9), (2, 5), (2, 6), (3, 5), (4, 7), (5, 1)]
         self.assertEqual(pareto_front(points), [(1, 9), (2, 5), (5, 1)])
-
-    def test_numbers(self):
-        self.assertEqual(numbers({"a": 1, "b": {"c": 0.5, "d": None, "e": {"f": 2}}, "g": "text", "h": True, "i": [1]}),
-                         {"a": 1, "b.c": 0.5, "b.d": None, "b.e.f": 2})
 
 
 if __name__ == "__main__":

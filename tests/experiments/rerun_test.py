@@ -18,8 +18,8 @@ def ran(folder, before):
 
 
 def stage_times(folder):
-    """Stage -> what times.json says and when it was written: a run of the stage changes it."""
-    return {str(path.parent.relative_to(folder / "stages")): (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.glob("stages/*/*/times.json")}
+    """Stage -> what report.json says and when it was written: a run of the stage changes it."""
+    return {str(path.parent.relative_to(folder / "stages")): (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.glob("stages/*/*/report.json")}
 
 
 class Rerun(unittest.TestCase):

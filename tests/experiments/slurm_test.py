@@ -23,7 +23,7 @@ def main():
         environment["CI"] = "true"  # Snakemake then asks for finished jobs every second instead of every ten
         run(options.bin, folder, "--jobs", "2", "--threads", "1", profile, env=environment)
         jobs = list((folder / "slurm").glob("*.out"))
-        stages = list(folder.glob("stages/*/*/times.json"))
+        stages = list(folder.glob("stages/*/*/report.json"))
         assert len(jobs) >= len(stages), f"{len(jobs)} jobs of Slurm for {len(stages)} stages; did they run elsewhere?"
         shutil.rmtree(folder / "slurm")
         require_same(folder, options.undisturbed, options.bin, "through Slurm")

@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXPERIMENT = ROOT / "configs" / "workflow" / "experiment.py"
 TINY = ROOT / "configs" / "experiments" / "tiny.json"
 # Measured, or made from what was measured.
-MEASURED = ["times.json", "results.json", "results.csv", "report.html", "report-spec.json"]
+MEASURED = ["report.json", "results.json", "results.csv", "report.html", "report-spec.json"]
 
 
 def parser(description):
@@ -53,7 +53,7 @@ def require_same(folder, undisturbed, bin_dir, what):
     """Everything but measured times is the same; and, given the same times, so are tables, plots and report."""
     different = differences(digests(folder), digests(undisturbed))
     assert not different, f"{what}: differs from the undisturbed run: {different}"
-    for path in undisturbed.rglob("times.json"):
+    for path in undisturbed.rglob("report.json"):
         shutil.copyfile(path, folder / path.relative_to(undisturbed))
     run(bin_dir, folder)
     different = differences(digests(folder, True), digests(undisturbed, True))
