@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "html.h"
 #include "stages/metrics/compare.h"
 
 namespace vsgl::app {
@@ -125,6 +126,11 @@ Exit compare_files(Tool& tool, const Inputs& inputs, const FilesArguments& a, Re
   const PhaseTimer timer(report, "write");
   if (!inputs.output.empty()) write_text(outputs.add(inputs.output), result.dump(2) + "\n");
   write_maps(tool, a.maps, test, reference, options, report, outputs);
+  if (!inputs.html.empty()) {
+    const HtmlImages images{
+        "Images", {&test}, &reference, html_maps(test, reference, a.maps.layer, options.layers)};
+    write_html(tool, inputs.html, result, comparison.failures.empty(), {images}, a.channels, report, outputs);
+  }
   return comparison.failures.empty() ? Exit::ok : Exit::differs;
 }
 

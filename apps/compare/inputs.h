@@ -10,6 +10,7 @@ namespace vsgl::app {
 struct Inputs {
   std::filesystem::path test, reference;
   std::filesystem::path output;  // JSON; empty: none
+  std::filesystem::path html;    // page; empty: none
 };
 
 // Throws bad_value, naming the flag, unless all of `text` is a finite number.

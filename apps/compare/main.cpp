@@ -2,6 +2,7 @@
 
 #include "decomposition.h"
 #include "files.h"
+#include "html.h"
 #include "sequences.h"
 
 int main(int argc, char** argv) {
@@ -10,6 +11,7 @@ int main(int argc, char** argv) {
   tool.input("test", inputs.test, "artifact to judge (A)")->required();
   tool.input("reference", inputs.reference, "artifact to judge it by (B)")->required();
   tool.output("-o,--output", inputs.output, "JSON with all figures");
+  vsgl::app::declare_html(tool, inputs.html);
 
   // Each mode declares its flags here and is chosen below.
   vsgl::app::FilesArguments files;

@@ -1,11 +1,14 @@
-// The stage: draws image canvases side by side or split, zoomed and panned together. Lengths are CSS pixels.
+// The stage: draws pictures side by side or split, zoomed and panned together. Lengths are CSS pixels.
+//
+// A region {source, left, top, width, height, from, to, values} shows the picture `source`, its view's centre in the middle of
+// the rectangle, but only between the abscissas `from` and `to`; `values(i)` are the texts of a pixel.
 
 const ZOOM_STEPS = {least: 0.02, most: 256};
 const GRID_FROM = 10;     // CSS pixels an image pixel from which the grid is drawn
 const VALUES_FROM = 56;   // likewise its values
 
 class Stage {
-  // `regions(width, height)`: [{source, x, width, clip: [from, to], values}] in CSS pixels; `changed()`: after each change of the view.
+  // `regions(width, height)`: what to show on a stage of that size; `changed()`: after each change of the view.
   constructor(canvas, width, height, regions, changed) {
     Object.assign(this, {canvas, imageWidth: width, imageHeight: height, regions, changed});
     this.context = canvas.getContext("2d", {alpha: false});
@@ -29,18 +32,17 @@ class Stage {
     else this.update();
   }
 
-  // Width of one image's region.
-  get viewportWidth() { return this.regions(this.width, this.height)[0]?.width ?? this.width; }
+  get first() { return this.regions(this.width, this.height)[0] ?? {left: 0, top: 0, width: this.width, height: this.height}; }
 
   fit() {
     this.fitted = true;
-    this.zoom = Math.min(this.viewportWidth / this.imageWidth, this.height / this.imageHeight);
+    this.zoom = Math.min(this.first.width / this.imageWidth, this.first.height / this.imageHeight);
     this.centre = [this.imageWidth / 2, this.imageHeight / 2];
     this.update();
   }
 
   // Zooms so that the image point under (x, y) stays there.
-  zoomTo(zoom, x = this.viewportWidth / 2, y = this.height / 2) {
+  zoomTo(zoom, x = this.first.width / 2, y = this.first.height / 2) {
     const before = this.imagePoint(x, y);
     this.zoom = clamp(zoom, ZOOM_STEPS.least, ZOOM_STEPS.most);
     const after = this.imagePoint(x, y);
@@ -63,13 +65,10 @@ class Stage {
     this.update();
   }
 
-  regionAt(x) {
-    return this.regions(this.width, this.height).find(({clip}) => x >= clip[0] && x < clip[1]);
-  }
-
   imagePoint(x, y) {
-    const {x: left = 0, width = this.width} = this.regionAt(x) ?? {};
-    return [this.centre[0] + (x - left - width / 2) / this.zoom, this.centre[1] + (y - this.height / 2) / this.zoom];
+    const inside = ({from, to, top, height}) => x >= from && x < to && y >= top && y < top + height;
+    const {left, top, width, height} = this.regions(this.width, this.height).find(inside) ?? this.first;
+    return [this.centre[0] + (x - left - width / 2) / this.zoom, this.centre[1] + (y - top - height / 2) / this.zoom];
   }
 
   // [x, y] of the pixel there, or null beside the image.
@@ -93,21 +92,21 @@ class Stage {
       context.save();
       context.setTransform(density, 0, 0, density, 0, 0);
       context.beginPath();
-      context.rect(region.clip[0], 0, region.clip[1] - region.clip[0], this.height);
+      context.rect(region.from, region.top, region.to - region.from, region.height);
       context.clip();
       this.drawRegion(region);
       context.restore();
     }
   }
 
-  drawRegion({source, x, width, values}) {
+  drawRegion(region) {
     const {context, zoom} = this;
-    const left = x + width / 2 - this.centre[0] * zoom, top = this.height / 2 - this.centre[1] * zoom;
+    const left = region.left + region.width / 2 - this.centre[0] * zoom, top = region.top + region.height / 2 - this.centre[1] * zoom;
     context.imageSmoothingEnabled = zoom * this.density < 1;
     context.imageSmoothingQuality = "high";
-    context.drawImage(source, left, top, this.imageWidth * zoom, this.imageHeight * zoom);
+    context.drawImage(region.source, left, top, this.imageWidth * zoom, this.imageHeight * zoom);
     if (zoom >= GRID_FROM) this.drawGrid(left, top);
-    if (zoom >= VALUES_FROM) this.drawValues(left, top, x, width, values);
+    if (zoom >= VALUES_FROM) this.drawValues(left, top, region);
   }
 
   drawGrid(left, top) {
@@ -127,13 +126,10 @@ class Stage {
   }
 
   // The values of each visible pixel, written into it.
-  drawValues(left, top, x, width, values) {
+  drawValues(left, top, {from, to, top: upper, height, values}) {
     const {context, zoom} = this;
-    const range = (from, length, limit) => {
-      const first = Math.max(0, Math.floor(-from / zoom));
-      return [first, Math.min(limit, Math.ceil((length - from) / zoom))];
-    };
-    const [i0, i1] = range(left - x, width, this.imageWidth), [j0, j1] = range(top, this.height, this.imageHeight);
+    const range = (start, low, high, limit) => [Math.max(0, Math.floor((low - start) / zoom)), Math.min(limit, Math.ceil((high - start) / zoom))];
+    const [i0, i1] = range(left, from, to, this.imageWidth), [j0, j1] = range(top, upper, upper + height, this.imageHeight);
     context.font = `${Math.min(14, zoom / 6)}px ui-monospace, monospace`;
     context.textAlign = "center";
     context.textBaseline = "middle";

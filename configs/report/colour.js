@@ -61,7 +61,7 @@ const heatMap = colourMap([[0.16, 0.005, -0.030], [0.36, 0.055, -0.118], [0.56, 
 const signedMap = colourMap([[0.93, -0.050, -0.050], [0.72, -0.060, -0.120], [0.48, -0.030, -0.130], [0.22, 0, 0],
                              [0.50, 0.110, 0.080], [0.73, 0.080, 0.125], [0.93, 0.010, 0.090]]);
 
-// A canvas of the image's size whose pixels are `colourOf(i, rgb)`: true, and 8-bit colour in rgb; or false: not finite.
+// {canvas, pixels}, a picture whose pixels are `colourOf(i, rgb)`: true, and 8-bit colour in rgb; or false: not finite.
 function paint(width, height, colourOf) {
   const canvas = Object.assign(document.createElement("canvas"), {width, height});
   const context = canvas.getContext("2d");
@@ -72,10 +72,10 @@ function paint(width, height, colourOf) {
     image.data[4 * i + 3] = 255;
   }
   context.putImageData(image, 0, 0);
-  return canvas;
+  return {canvas, pixels: image.data};
 }
 
-// Planes of linear colour (or grey) as a canvas.
+// Planes of linear colour (or grey) as a picture.
 function paintPicture({width, height}, planes, exposure, tone) {
   const [red, green, blue] = planes.length === 3 ? planes : [planes[0], planes[0], planes[0]];
   const scale = 2 ** exposure, curve = toneCurves[tone], colour = [0, 0, 0];
@@ -90,7 +90,7 @@ function paintPicture({width, height}, planes, exposure, tone) {
   });
 }
 
-// An error map (errors.js) as a canvas.
+// An error map (errors.js) as a picture.
 function paintError({width, height}, error) {
   return paint(width, height, (i, rgb) => {
     if (!Number.isFinite(error.values[i])) return false;

@@ -43,7 +43,7 @@ class HistogramPlot {
     const step = Math.ceil((this.high - this.low) / 7);
     for (let d = Math.ceil(this.low); d <= this.high; d += step) {
       this.line("grid", this.x(d), HISTOGRAM.top, this.x(d), height - bottom);
-      this.text(this.x(d), height - bottom + 16, "middle", Math.abs(d) < 4 ? String(Number((10 ** d).toPrecision(1))) : `1e${d}`.replace("-", "−"));
+      this.text(this.x(d), height - bottom + 16, "middle", Math.abs(d) < 4 ? String(Number((10 ** d).toPrecision(1))) : `1e${d}`);
     }
   }
 
@@ -124,5 +124,5 @@ function drawErrorHistogram(figure, error) {
   plot.bars(counts.bins, (value) => heatMap(place(value)));
   [[0.5, "median"], [0.95, "95 %"], [0.99, "99 %"]].forEach(([share, name], row) => plot.mark(percentile(error, share), name, row));
   showHistogram(figure, plot, "Histogram of the relative errors",
-                ["Relative error, pixels", ...(counts.dark ? [`; ${counts.dark} without any`] : [])]);
+                ["Relative error, pixels", ...(counts.dark ? [`; ${counts.dark} without error`] : [])]);
 }

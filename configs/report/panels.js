@@ -9,11 +9,11 @@ function element(tag, attributes = {}, ...children) {
 
 // `digits` significant digits, without an exponent where that is short.
 function numberText(x, digits = 4) {
-  if (!Number.isFinite(x)) return Number.isNaN(x) ? "NaN" : x > 0 ? "∞" : "−∞";
+  if (!Number.isFinite(x)) return Number.isNaN(x) ? "NaN" : x > 0 ? "∞" : "-∞";
   if (x === 0) return "0";
   const size = Math.abs(x);
   const text = size >= 1e-4 && size < 1e6 ? x.toPrecision(digits) : x.toExponential(digits - 2);
-  return (text.includes("e+") && size < 1e6 ? String(Math.round(x)) : text).replace("-", "−");
+  return (text.includes("e+") && size < 1e6 ? String(Math.round(x)) : text);
 }
 
 const percentText = (x) => (Number.isFinite(x) ? `${numberText(100 * x, 3)} %` : numberText(x));
@@ -55,7 +55,7 @@ function drawLegend(legend, error) {
     context.fillStyle = `rgb(${error.colour(x / 255).join()})`;
     context.fillRect(x, 0, 1, 1);
   }
-  const texts = error.ticks.map((tick) => numberText(tick, 2));
+  const texts = error.ticks.map((tick) => String(Number(tick.toPrecision(2))));
   bar.setAttribute("aria-label", `${error.name}: colours from ${texts[0]} to ${texts.at(-1)}`);
   legend.querySelector(".legend-name").textContent = error.name;
   legend.querySelector(".legend-ticks").replaceChildren(...error.ticks.map((tick, i) => {
@@ -84,19 +84,20 @@ function drawStatistics(container, names, a, b, error) {
   };
   const largest = (values) => percentile(values, 1);
   const row = (name, ...cells) => element("tr", {}, element("th", {scope: "row"}, name),
-                                          ...cells.map((cell) => element("td", {class: "number"}, cell)));
+                                          ...cells.map((cell) => element("td", {class: "number", colspan: 3 - cells.length}, cell)));
   const table = element("table", {},
     element("caption", {}, "Luminance of this layer"),
-    element("thead", {}, element("tr", {}, element("td"), element("th", {scope: "col", class: "a"}, names[0]), element("th", {scope: "col", class: "b"}, names[1]))),
+    element("thead", {}, element("tr", {}, element("td"), element("th", {scope: "col", class: "number a"}, names[0]),
+                                          element("th", {scope: "col", class: "number b"}, names[1]))),
     element("tbody", {},
       row("mean", numberText(mean(a)), numberText(mean(b))),
       row("median", numberText(percentile(a, 0.5)), numberText(percentile(b, 0.5))),
       row("95 %", numberText(percentile(a, 0.95)), numberText(percentile(b, 0.95))),
       row("largest", numberText(largest(a)), numberText(largest(b)))),
     element("tbody", {},
-      row("mean A / mean B", numberText(mean(a) / mean(b)), ""),
-      row("relative error, mean", percentText(mean(error)), ""),
-      row("95 %", percentText(percentile(error, 0.95)), ""),
-      row("99 %", percentText(percentile(error, 0.99)), "")));
+      row("mean A / mean B", numberText(mean(a) / mean(b))),
+      row("relative error: mean", percentText(mean(error))),
+      row("95 %", percentText(percentile(error, 0.95))),
+      row("99 %", percentText(percentile(error, 0.99)))));
   container.replaceChildren(table);
 }

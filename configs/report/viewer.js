@@ -2,6 +2,7 @@
 
 const VIEWS = ["split", "A", "B", "side by side", "error"];
 const [SPLIT, ONLY_A, ONLY_B, SIDE, ERROR] = VIEWS.keys();
+const narrowWindow = window.matchMedia("(max-width: 640px)");
 
 class Viewer {
   constructor(root, set) {
@@ -11,12 +12,12 @@ class Viewer {
     this.pixel = null;
     this.find = (selector) => root.querySelector(selector);
     this.buildControls();
-    const canvas = this.find(".stage canvas");
-    canvas.parentElement.style.setProperty("--shape", `${set.width} / ${set.height}`);
-    this.stage = new Stage(canvas, set.width, set.height, (width, height) => this.regions(width, height), () => this.showView());
+    this.showShape();
+    this.stage = new Stage(this.find(".stage canvas"), set.width, set.height, (width, height) => this.regions(width, height), () => this.showView());
     this.pointer = new StagePointer(this);
     root.addEventListener("keydown", (event) => this.keyDown(event));
     root.addEventListener("keyup", (event) => event.key === " " && this.change({flipped: false}));
+    narrowWindow.addEventListener("change", () => this.showShape());
     root.addEventListener("focusout", () => this.state.flipped && this.change({flipped: false}));
   }
 
@@ -59,7 +60,8 @@ class Viewer {
 
   // Names of the error maps that exist between A and B: computed ones, then those that came with the report.
   errorChoices() {
-    const given = this.set.maps.map((map, index) => ({...map, index})).filter(({image}) => image === this.state.a && this.state.b === 0);
+    const given = this.set.maps.map((map, index) => ({...map, index})).filter(({image, layer}) =>
+      image === this.state.a && this.state.b === 0 && (!layer || layer === this.set.layers[this.state.layer].name));
     return [...errorKinds, ...given];
   }
 
@@ -74,7 +76,8 @@ class Viewer {
     const pair = !this.layer || differ("layer", "a", "b");
     if (pair || differ("error")) await this.loadPair();
     if (pair || differ("exposure", "tone")) this.paintPictures();
-    if (before.view !== this.state.view && this.stage.fitted) this.stage.fit();
+    if (differ("view")) this.showShape();
+    if (differ("view") && this.stage.fitted) this.stage.fit();
     else this.stage.update();
   }
 
@@ -92,7 +95,7 @@ class Viewer {
     this.relative = relativeError(difference, this.luminances[1]);
     this.difference = difference;
     this.error = given ? givenMap(choice, given) : {name: choice.name, ...choice.make(difference, this.luminances[1])};
-    this.errorCanvas = paintError(set, this.error);
+    this.errorPicture = paintError(set, this.error);
     this.paintPictures();
     this.showPanels();
   }
@@ -109,28 +112,41 @@ class Viewer {
     const values = (image) => (i) => this.layer.values[image].map((plane) => numberText(plane[i], 3));
     const {a, b, flipped} = this.state;
     const sides = [
-      {key: "a", letter: "A", name: this.set.images[a].label, source: this.pictures[0], values: values(a)},
-      {key: "b", letter: "B", name: this.set.images[b].label, source: this.pictures[1], values: values(b)},
+      {key: "a", letter: "A", name: this.set.images[a].label, source: this.pictures[0].canvas, values: values(a)},
+      {key: "b", letter: "B", name: this.set.images[b].label, source: this.pictures[1].canvas, values: values(b)},
     ];
     return flipped ? sides.reverse() : sides;
   }
 
-  regions(width) {
+  regions(width, height) {
     if (!this.pictures) return [];
     const [a, b] = this.sides();
-    const error = {key: "error", letter: "", name: this.error.name, source: this.errorCanvas, values: (i) => [numberText(this.error.values[i], 3)]};
-    const whole = (side) => ({...side, x: 0, width, clip: [0, width]});
+    const error = {key: "error", letter: "", name: this.error.name, source: this.errorPicture.canvas, values: (i) => [numberText(this.error.values[i], 3)]};
+    const whole = (side) => ({...side, left: 0, top: 0, width, height, from: 0, to: width});
     const middle = Math.round(this.state.divider * width);
     switch (this.state.view) {
-      case SPLIT: return [{...whole(a), clip: [0, middle]}, {...whole(b), clip: [middle, width]}];
+      case SPLIT: return [{...whole(a), to: middle}, {...whole(b), from: middle}];
       case ONLY_A: return [whole(a)];
       case ONLY_B: return [whole(b)];
       case ERROR: return [whole(error)];
-      default: return [a, b, error].map((side, i) => {
-        const from = Math.round(i * width / 3), to = Math.round((i + 1) * width / 3);
-        return {...side, x: from, width: to - from, clip: [from + (i ? 1 : 0), to]};
-      });
+      default: return [a, b, error].map((side, i) => this.third(side, i, width, height));
     }
+  }
+
+  // The i-th of three in a row, or in a column where the window is narrow.
+  third(side, i, width, height) {
+    const length = this.stacked ? height : width;
+    const start = Math.round(i * length / 3), end = Math.round((i + 1) * length / 3) - (i < 2 ? 2 : 0);
+    return this.stacked ? {...side, left: 0, top: start, width, height: end - start, from: 0, to: width}
+                        : {...side, left: start, top: 0, width: end - start, height, from: start, to: end};
+  }
+
+  // The stage takes the shape of what it shows.
+  showShape() {
+    const {width, height} = this.set, side = this.state.view === SIDE;
+    this.stacked = narrowWindow.matches;
+    const shape = side ? (this.stacked ? [width, 3 * height] : [3 * width, height]) : [width, height];
+    this.find(".stage").style.setProperty("--shape", shape.join(" / "));
   }
 
   // ---- what the page says about it ----
@@ -174,12 +190,13 @@ class Viewer {
 
   showBadges() {
     const {width, height} = this.stage;
-    this.find(".badges").replaceChildren(...this.regions(width, height).map(({key, letter, name, clip}, i, all) => {
+    this.find(".badges").replaceChildren(...this.regions(width, height).map(({key, letter, name, from, to, top}, i, all) => {
       const badge = element("span", {class: `badge ${key}`}, ...(letter ? [element("b", {}, letter)] : []), element("span", {}, name));
       const right = this.state.view === SPLIT && i === all.length - 1;
-      badge.style[right ? "right" : "left"] = `${right ? 8 : clip[0] + 8}px`;
-      badge.style.maxWidth = `${Math.max(0, clip[1] - clip[0] - 16)}px`;
-      badge.hidden = clip[1] - clip[0] < 48;
+      badge.style[right ? "right" : "left"] = `${right ? 8 : from + 8}px`;
+      badge.style.top = `${top + 8}px`;
+      badge.style.maxWidth = `${Math.max(0, to - from - 16)}px`;
+      badge.hidden = to - from < 48;
       return badge;
     }));
   }
@@ -205,7 +222,7 @@ class Viewer {
     if (!this.pixel) return drawReadout(this.find(".readout"), "Point at a pixel to read its values.", []);
     const [x, y] = this.pixel, i = y * this.set.width + x;
     const texts = (planes) => planes.map((plane) => numberText(plane[i]));
-    const shown = (side) => [...this.pictures[side].getContext("2d").getImageData(x, y, 1, 1).data].slice(0, 3);
+    const shown = (side) => [...this.pictures[side].pixels.slice(4 * i, 4 * i + 3)];
     const rows = [
       ["A", "a", texts(this.layer.values[a]), shown(0)],
       ["B", "b", texts(this.layer.values[b]), shown(1)],

@@ -57,16 +57,15 @@ std::string section_html(const Section& section, const std::string& id, int leve
 std::string header_html(const Document& document) {
   std::string out = "<header class=\"page\"><h1>" + escape_html(document.title) + "</h1>";
   if (!document.verdict.empty()) {
-    const bool passed = document.failures && document.failures->empty();
-    out += "<p class=\"verdict " + std::string(passed ? "passed" : "failed") + "\">" +
+    out += "<p class=\"verdict " + std::string(document.passed ? "passed" : "failed") + "\">" +
            escape_html(document.verdict) + "</p>";
   }
   out += "</header>\n" + paragraphs(document.summary);
-  if (document.failures && !document.failures->empty()) {
+  if (!document.failures.empty()) {
     out += "<section class=\"failures\" aria-labelledby=\"failures-title\"><h2 id=\"failures-title\">" +
-           std::to_string(document.failures->size()) +
-           (document.failures->size() == 1 ? " failure" : " failures") + "</h2><ul>";
-    for (const std::string& failure : *document.failures) out += "<li>" + escape_html(failure) + "</li>";
+           std::to_string(document.failures.size()) +
+           (document.failures.size() == 1 ? " failure" : " failures") + "</h2><ul>";
+    for (const std::string& failure : document.failures) out += "<li>" + escape_html(failure) + "</li>";
     out += "</ul></section>\n";
   }
   return out;

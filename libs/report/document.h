@@ -61,9 +61,10 @@ struct Section {
 
 struct Document {
   std::string title;
-  std::string summary;                               // paragraphs; empty: none
-  std::string verdict;                               // "differs"; empty: none
-  std::optional<std::vector<std::string>> failures;  // none: the document judges nothing
+  std::string summary;                // paragraphs; empty: none
+  std::string verdict;                // "differs"; empty: none
+  bool passed = true;                 // what the verdict says
+  std::vector<std::string> failures;  // shown first
   std::vector<Section> sections;
   Provenance made_by;
 };

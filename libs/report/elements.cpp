@@ -1,5 +1,6 @@
 #include "report/elements.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -34,6 +35,12 @@ std::string cell_html(const Json& cell) {
                               "\" title=\"Show this pixel\">" + x + ", " + y + "</button>");
   }
   return "<td>" + escape_html(cell.get<std::string>()) + "</td>";
+}
+
+// Whether a column's title belongs to the right, above numbers.
+bool holds_numbers(const Table& table, std::size_t column) {
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [&](const auto& row) { return row[column].is_number() || row[column].is_array(); });
 }
 
 std::string html_of(const Text& text) {
@@ -89,7 +96,9 @@ std::string paragraphs(const std::string& text) {
 std::string table_html(const Table& table) {
   std::string out = "<div class=\"table-frame\"><table class=\"sortable\">" +
                     caption_html("caption", table.caption) + "<thead><tr>";
-  for (const std::string& column : table.columns) out += "<th scope=\"col\">" + escape_html(column) + "</th>";
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    out += (holds_numbers(table, c) ? "<th scope=\"col\" class=\"number\">" : "<th scope=\"col\">") +
+           escape_html(table.columns[c]) + "</th>";
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     out += "<tr>";

@@ -83,6 +83,15 @@ std::vector<std::string> layers_of(const ExrPart& part) {
   return names;
 }
 
+// Whether a layer ("key: flux") is named, or one of its channels. An empty selection names all.
+bool is_selected(const std::vector<std::string>& selection, const std::string& layer) {
+  const std::size_t colon = layer.rfind(": ");
+  const std::string plain = colon == std::string::npos ? layer : layer.substr(colon + 2);
+  return selection.empty() || std::any_of(selection.begin(), selection.end(), [&](const std::string& name) {
+           return name == plain || layer_of(name) == plain;
+         });
+}
+
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -122,20 +131,22 @@ Layer extract_layer(const ExrFile& file, const std::string& name) {
   return out;
 }
 
-std::vector<std::string> shared_layers(const std::vector<const ExrFile*>& files) {
+std::vector<std::string> shared_layers(const std::vector<const ExrFile*>& files,
+                                       const std::vector<std::string>& selection) {
+  const ExrFile& first = *files.front();
   std::vector<std::string> shared, colours;
   std::optional<std::pair<int, int>> size;
-  for (const std::string& name : layer_names(*files.front())) {
-    const auto here = layer_size(*files.front(), name);
-    if (size && here != size) continue;
+  for (const std::string& name : layer_names(first)) {
+    const auto here = layer_size(first, name);
+    if (!is_selected(selection, name) || (size && here != size)) continue;
     if (!std::all_of(files.begin(), files.end(),
                      [&](const ExrFile* file) { return layer_size(*file, name) == here; }))
       continue;
     size = here;
     shared.push_back(name);
-    if (is_colour_layer(*files.front(), name)) colours.push_back(name);
+    if (is_colour_layer(first, name)) colours.push_back(name);
   }
-  return colours.empty() ? shared : colours;
+  return colours.empty() || !selection.empty() ? shared : colours;
 }
 
 Picture make_picture(const ExrFile& file, const std::string& label, const std::vector<std::string>& layers) {

@@ -30,6 +30,7 @@ struct Picture {
 struct ErrorMap {
   enum class Scale { unit, signed_, log };
   std::string name;
+  std::string layer;  // of which it shows the error; empty: of all
   Scale scale = Scale::unit;
   double limit = 3;  // of signed_: the value at the ends of its scale
   int width = 0, height = 0;
@@ -45,9 +46,11 @@ std::optional<std::pair<int, int>> layer_size(const ExrFile& file, const std::st
 // The layer; an empty one (no planes) when the file has none of that name.
 Layer extract_layer(const ExrFile& file, const std::string& name);
 
-// The layers that all files have in one size: the colour layers among them, or else all. Of several sizes the
-// one of the first layer counts.
-std::vector<std::string> shared_layers(const std::vector<const ExrFile*>& files);
+// The layers that all files have in one size; of several sizes that of the first layer. `selection`: only
+// those that it names, by layer ("normal") or channel ("normal.X"); empty: the colour layers, or all where
+// there are none.
+std::vector<std::string> shared_layers(const std::vector<const ExrFile*>& files,
+                                       const std::vector<std::string>& selection = {});
 
 // Throws wrong_size unless the layers have one size, missing_channel naming file and layers where one is
 // absent.

@@ -13,6 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What compare -o writes.
+const std::vector<std::string> kResultSchemas = {"vsgltools/compare/1", "vsgltools/flicker/1",
+                                                 "vsgltools/decomposition/1"};
+
 std::string line(const JsonValue& value) {
   std::string text = value.string();
   if (text.empty()) throw Error(ErrorCode::json_out_of_range, value.where() + ": must not be empty");
@@ -24,12 +28,12 @@ std::string line_or(const JsonValue& object, const std::string& key, const std::
   return member ? line(*member) : otherwise;
 }
 
-JsonValue parse_with_schema(const fs::path& path, const std::string& schema) {
+JsonValue parse_with_schema(const fs::path& path, const std::vector<std::string>& schemas) {
   const JsonValue root = JsonValue::parse_file(path);
   const std::string found = root.at("$schema").string();
-  if (found != schema)
+  if (std::find(schemas.begin(), schemas.end(), found) == schemas.end())
     throw Error(ErrorCode::wrong_schema,
-                root.where() + ": $schema is \"" + found + "\", must be \"" + schema + "\"");
+                root.where() + ": $schema is \"" + found + "\", must be \"" + schemas.front() + "\"");
   return root;
 }
 
@@ -136,6 +140,7 @@ Block Reader::fragment(const JsonValue& value) {
 ErrorMap Reader::map(const JsonValue& value, const Picture& reference) {
   ErrorMap out;
   out.name = line(value.at("name"));
+  out.layer = line_or(value, "layer", "");
   const ExrFile exr = read_exr(file(value.at("file")));
   const Picture picture = make_picture(exr, "", {line(value.at("channel"))});
   const std::string scale = value.at("scale").choice({"unit", "signed", "log"});
@@ -179,7 +184,7 @@ Picture labelled(const ExrFile& exr, const JsonValue& described, const std::vect
 std::vector<Table> Reader::metrics(const JsonValue& test, const std::string& label) {
   const auto path = test.find("metrics");
   if (!path) return {};
-  std::vector<Table> tables = tables_of_result(parse_with_schema(file(*path), "vsgltools/compare/1").raw());
+  std::vector<Table> tables = tables_of_result(parse_with_schema(file(*path), kResultSchemas).raw());
   for (Table& table : tables) table.caption = label + (table.caption.empty() ? "" : ": " + table.caption);
   return tables;
 }
@@ -244,14 +249,14 @@ Section Reader::section(const JsonValue& value, int level) {
 }  // namespace
 
 DescribedDocument read_document(const fs::path& path) {
-  const JsonValue root = parse_with_schema(path, "vsgltools/report/1");
+  const JsonValue root = parse_with_schema(path, {"vsgltools/report/1"});
   DescribedDocument out;
   out.document.title = line(root.at("title"));
   out.document.summary = line_or(root, "summary", "");
   if (const auto failures = root.find("failures")) {
-    auto& messages = out.document.failures.emplace();
-    for (const JsonValue& item : failures->array()) messages.push_back(line(item));
-    out.document.verdict = messages.empty() ? "passed" : "failed";
+    for (const JsonValue& item : failures->array()) out.document.failures.push_back(line(item));
+    out.document.passed = out.document.failures.empty();
+    out.document.verdict = out.document.passed ? "passed" : "failed";
   }
   Reader reader(path.parent_path());
   for (const JsonValue& item : root.at("sections").array(1))

@@ -9,11 +9,17 @@
 #include <memory>
 
 #include "base/error.h"
+#include "report/elements.h"
 
 namespace vsgl::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+// A wider table is turned on its side.
+constexpr std::size_t kMostColumns = 20;
+// A longer list is no cell.
+constexpr std::size_t kLongestList = 4;
+
 using Row = std::vector<std::pair<std::string, Json>>;  // column and cell
 
 // A whole decimal number as such, anything else as text.
@@ -38,6 +44,23 @@ bool is_pixel(const std::string& key, const Json& value) {
          value[1].is_number_unsigned();
 }
 
+// "a, b, c".
+std::string joined(const Json& list) {
+  std::string text;
+  for (const Json& item : list) {
+    if (!text.empty()) text += ", ";
+    text += item.is_string()         ? item.get<std::string>()
+            : item.is_number_float() ? number_text(item.get<double>())
+                                     : item.dump();
+  }
+  return text;
+}
+
+bool is_short_list(const Json& value) {
+  return value.is_array() && value.size() <= kLongestList &&
+         std::none_of(value.begin(), value.end(), [](const Json& item) { return item.is_structured(); });
+}
+
 // Members of an object as cells; nested ones with their path. "metrics" adds nothing to a name.
 void flatten(const Json& object, const std::string& prefix, Row& row) {
   for (const auto& [key, value] : object.items()) {
@@ -46,32 +69,51 @@ void flatten(const Json& object, const std::string& prefix, Row& row) {
       flatten(value, key == "metrics" ? prefix : name + " ", row);
     } else if (!value.is_array() || is_pixel(key, value)) {
       row.emplace_back(name, value);
+    } else if (is_short_list(value)) {
+      row.emplace_back(name, joined(value));
     }
   }
 }
 
+bool is_empty(const Json& cell) {
+  return cell.is_null() || cell == "";
+}
+
+// A row for each object; columns in which nothing stands are left out.
 Table table_of_rows(const std::vector<Row>& rows) {
   Table table;
   for (const Row& row : rows)
     for (const auto& [name, cell] : row)
-      if (std::find(table.columns.begin(), table.columns.end(), name) == table.columns.end())
+      if (!is_empty(cell) &&
+          std::find(table.columns.begin(), table.columns.end(), name) == table.columns.end())
         table.columns.push_back(name);
   for (const Row& row : rows) {
-    std::vector<Json> cells(table.columns.size());
-    for (const auto& [name, cell] : row)
-      cells[static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
-                                     table.columns.begin())] = cell;
-    table.rows.push_back(std::move(cells));
+    auto& cells = table.rows.emplace_back(table.columns.size());
+    for (const auto& [name, cell] : row) {
+      const auto column = std::find(table.columns.begin(), table.columns.end(), name);
+      if (column != table.columns.end())
+        cells[static_cast<std::size_t>(column - table.columns.begin())] = cell;
+    }
   }
   return table;
+}
+
+// Rows become columns; the first column names the figures.
+Table transposed(const Table& table) {
+  Table out{table.caption, {""}, {}};
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    out.columns.push_back(table.rows.size() == 1 ? "value" : std::to_string(r + 1));
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    auto& cells = out.rows.emplace_back(1, table.columns[c]);
+    for (const auto& row : table.rows) cells.push_back(row[c]);
+  }
+  return out;
 }
 
 Table table_of_object(const Json& object) {
   Row row;
   flatten(object, "", row);
-  Table table{"", {"", "value"}, {}};
-  for (auto& [name, cell] : row) table.rows.push_back({name, cell});
-  return table;
+  return transposed(table_of_rows({row}));
 }
 
 bool is_array_of_objects(const Json& value) {
@@ -82,6 +124,16 @@ bool is_array_of_objects(const Json& value) {
 Table table_of_array(const Json& array) {
   std::vector<Row> rows;
   for (const Json& item : array) flatten(item, "", rows.emplace_back());
+  return table_of_rows(rows);
+}
+
+// {"at": [50, 90], "relative": [0.1, 0.2]}: a column for each list.
+Table table_of_lists(const Json& lists) {
+  std::vector<Row> rows;
+  for (const auto& [key, list] : lists.items()) {
+    rows.resize(std::max(rows.size(), list.size()));
+    for (std::size_t i = 0; i < list.size(); ++i) rows[i].emplace_back(spaced(key), list[i]);
+  }
   return table_of_rows(rows);
 }
 
@@ -139,7 +191,7 @@ Table table_of_json(const JsonValue& value) {
 }
 
 std::vector<Table> tables_of_result(const Json& result) {
-  Json single = Json::object();
+  Json settings = Json::object();
   std::vector<Table> tables;
   const auto add = [&](Table table, const std::string& caption) {
     if (table.rows.empty()) return;
@@ -147,22 +199,24 @@ std::vector<Table> tables_of_result(const Json& result) {
     tables.push_back(std::move(table));
   };
   for (const auto& [key, value] : result.items()) {
-    if (key == "$schema" || key == "failures") continue;
-    if (!value.is_object() && !value.is_array()) single[key] = value;
+    if (is_array_of_objects(value) && key != "failures") {
+      const Table table = table_of_array(value);
+      add(table.columns.size() > kMostColumns ? transposed(table) : table, spaced(key));
+      for (const Json& item : value)
+        if (item.contains("percentiles"))
+          add(table_of_lists(item["percentiles"]), "percentiles of " + item.value("layer", spaced(key)));
+    } else if (key != "failures" && key != "$schema") {
+      settings[key] = value;
+    }
   }
-  add(table_of_object(single), "");
-  for (const auto& [key, value] : result.items()) {
-    if (key == "failures") continue;
-    if (value.is_object()) add(table_of_object(value), spaced(key));
-    if (is_array_of_objects(value)) add(table_of_array(value), spaced(key));
-  }
+  add(table_of_object(settings), "what was compared, and how");
   return tables;
 }
 
 std::vector<std::string> failures_of_result(const Json& result) {
   std::vector<std::string> messages;
-  for (const Json& failure : result.at("failures"))
-    messages.push_back(failure.at("message").get<std::string>());
+  if (!result.contains("failures")) return messages;
+  for (const Json& failure : result["failures"]) messages.push_back(failure.at("message").get<std::string>());
   return messages;
 }
 

@@ -20,8 +20,8 @@ Table table_of_csv(const std::string& text, const std::string& origin);
 // pixel. Other arrays are left out. Throws json_wrong_type for anything else.
 Table table_of_json(const JsonValue& value);
 
-// All tables in a result of compare (vsgltools/compare/1 and its relatives): first its single values, then
-// one for each member that is an object or an array of objects, `failures` left out.
+// All tables in a result of compare (vsgltools/compare/1 and its relatives): one for each array of objects
+// but `failures`, with the percentiles in it, and last one of all single values.
 std::vector<Table> tables_of_result(const nlohmann::ordered_json& result);
 
 // Messages of its `failures`.

@@ -45,7 +45,11 @@ const char* name_of(ErrorMap::Scale scale) {
 }
 
 Json map_json(const ErrorMap& map, std::size_t image, BlobStore& blobs) {
-  Json out = {{"name", map.name}, {"image", image}, {"scale", name_of(map.scale)}, {"limit", map.limit}};
+  Json out = {{"name", map.name},
+              {"layer", map.layer},
+              {"image", image},
+              {"scale", name_of(map.scale)},
+              {"limit", map.limit}};
   out.update(stored(encode({&map.values, 1}, map.width, map.height), blobs));
   return out;
 }
