@@ -147,6 +147,7 @@ struct Reference {
   std::vector<interop::vec3> variance;  // per channel, (W/(m^2 sr))^2, of diffuse + specular
   std::string strategy;                 // light | brdf | mis
   std::uint64_t samples = 0;            // a pixel and strategy
+  int passes = 0;                       // independent estimates that the variance comes from, >= 2
 };
 void write(const std::filesystem::path& path, const Reference& reference, const Provenance& provenance);
 Reference read_reference(const std::filesystem::path& path);

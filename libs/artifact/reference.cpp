@@ -31,6 +31,7 @@ void write(const std::filesystem::path& path, const Reference& reference, const 
   ExrPart part = make_part("", "reference", provenance);
   part.attributes["reference.strategy"] = reference.strategy;
   part.attributes["reference.samples"] = static_cast<int>(reference.samples);
+  part.attributes["reference.passes"] = reference.passes;
   ExrLevel level = pack_radiance(reference.radiance);
   put_layer(level, kVariance, reference.variance);
   part.levels = {std::move(level)};
@@ -43,6 +44,7 @@ Reference read_reference(const std::filesystem::path& path) {
   Reference out;
   out.strategy = strategy_in(file, part);
   out.samples = static_cast<std::uint64_t>(int_in(file, part, "reference.samples", 1, kMaxSamples));
+  out.passes = int_in(file, part, "reference.passes", 2, kMaxSamples);
   out.radiance = unpack_radiance(file, part);
   get_layer(file, part, kVariance, out.variance);
   return out;

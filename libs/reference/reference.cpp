@@ -174,6 +174,7 @@ Reference Job::result() const {
   Reference out;
   out.strategy = params_.strategy;
   out.samples = static_cast<std::uint64_t>(passes_) * static_cast<std::uint64_t>(points_);
+  out.passes = passes_;
   out.radiance.width = gbuffer_.width;
   out.radiance.height = gbuffer_.height;
   out.radiance.direct = direct_;

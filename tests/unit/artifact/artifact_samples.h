@@ -168,7 +168,7 @@ inline Indirect sample_indirect(bool specular, bool direct, bool cancellation) {
 
 inline Reference sample_reference(bool specular) {
   Counter c;
-  Reference out{sample_indirect(specular, true, false), {}, "mis", 1024};
+  Reference out{sample_indirect(specular, true, false), {}, "mis", 1024, 16};
   for (int i = 0; i < 8; ++i) out.variance.push_back(c.vec3());
   return out;
 }

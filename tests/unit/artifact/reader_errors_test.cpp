@@ -303,6 +303,14 @@ TEST(IndirectErrors, LayersBelongTogether) {
               [](ExrFile& f) { pixel(f, 0, 0, "cancellation.V", 2) = 2; });
 }
 
+TEST(ReferenceErrors, OnePassHasNoVariance) {
+  const TemporaryFolder folder;
+  write(folder / "valid.exr", sample_reference(false), sample_provenance());
+  rewrite(folder / "valid.exr", folder / "broken.exr",
+          [](ExrFile& file) { file.parts[0].attributes["reference.passes"] = 1; });
+  expect_error(ErrorCode::invalid_data, {"reference.passes"}, [&] { read_reference(folder / "broken.exr"); });
+}
+
 TEST(ReferenceErrors, Strategy) {
   const TemporaryFolder folder;
   write(folder / "valid.exr", sample_reference(false), sample_provenance());

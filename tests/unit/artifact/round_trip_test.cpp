@@ -150,6 +150,7 @@ TEST(RoundTrip, Reference) {
     EXPECT_TRUE(same_bytes(a.variance, b.variance));
     EXPECT_EQ(b.strategy, "mis");
     EXPECT_EQ(b.samples, 1024u);
+    EXPECT_EQ(b.passes, 16);
     EXPECT_EQ(has_channel(read_exr(folder / "r.exr").parts[0], "specular.R"), specular);
   }
 }
