@@ -85,6 +85,7 @@ class Plan:
 
     def __init__(self, experiment, path):
         self.experiment = experiment
+        self.path = path
         self.folder = path.resolve().parent
         self.stages = {}
         self.origins = {}  # of a stage's options: JSON pointer into the experiment
@@ -108,21 +109,27 @@ class Plan:
         return folder
 
     def scene(self, name):
-        """Path of the scene JSON."""
+        """The scene JSON and the mesh files that it names, as inputs."""
         scene = self.experiment["scenes"][name]
-        if "scene" in scene:
-            return str((self.folder / scene["scene"]).resolve())
-        return self.stage("scene-gen", [name], {}, None, scene["generate"] + ["--resolution", self.experiment["resolution"]]) + "/scene.json"
+        if "generate" in scene:
+            arguments = [*scene["generate"], "--resolution", self.experiment["resolution"]]
+            return {"scene": self.stage("scene-gen", [name], {}, None, arguments) + "/scene.json"}
+        path = (self.folder / scene["scene"]).resolve()
+        try:
+            meshes = {mesh["file"] for mesh in json.loads(path.read_text(encoding="utf-8"))["meshes"]}
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise ExperimentError(f"{self.path}: {pointer(['scenes', name, 'scene'])}: {path}: {error}") from error
+        return {"scene": str(path), "meshes": sorted(str(path.parent / mesh) for mesh in meshes)}
 
     def bake(self, scene, frame, options=None, origin=("rsm_bake",)):
         """Folder of G-buffer and RSM. options: None for the experiment's own."""
         options = self.experiment.get("rsm_bake", {}) if options is None else options
         options = {"resolution": self.experiment["resolution"]} | options
-        return self.stage("rsm-bake", [scene, at(frame)], {"scene": self.scene(scene)}, options, frame_arguments(frame), origin)
+        return self.stage("rsm-bake", [scene, at(frame)], self.scene(scene), options, frame_arguments(frame), origin)
 
     def trace(self, scene, frame, options, seed, origin):
         """Image by path tracing."""
-        inputs = {"scene": self.scene(scene), "gbuffer": f"{self.bake(scene, frame)}/gbuffer.exr"}
+        inputs = {**self.scene(scene), "gbuffer": f"{self.bake(scene, frame)}/gbuffer.exr"}
         label = [scene, at(frame), options.get("strategy"), options["samples"], f"s{seed}"]
         arguments = ["--seed", str(seed), *frame_arguments(frame)]
         return self.stage("reference", label, inputs, options, arguments, origin) + "/reference.exr"
@@ -144,7 +151,7 @@ class Plan:
         stages["vsgl-gen"] = stage("vsgl-gen", [method("vsgl_gen"), n, f"s{seed}"], inputs, ["--seed", str(seed)], **count)
         inputs = {"gbuffer": gbuffer, "lights": f"{stages['vsgl-gen']}/lights.exr"}
         if pipeline.get("ismap", {}) is not None:
-            seen = {"scene": self.scene(scene), "lights": inputs["lights"]} | ({"gbuffer": gbuffer} if method("ismap") == "raytraced" else {})
+            seen = {**self.scene(scene), "lights": inputs["lights"]} | ({"gbuffer": gbuffer} if method("ismap") == "raytraced" else {})
             stages["ismap"] = stage("ismap", [method("vsgl_gen"), n, f"s{seed}", method("ismap")], seen, frame_arguments(frame))
             inputs["ism"] = f"{stages['ismap']}/ism.exr"
         stages["shade"] = stage("shade", [method("shade"), n, f"s{seed}"], inputs)
@@ -171,7 +178,8 @@ class Plan:
                     image, stages = self.image(scene, frame, name, n, seed)
                     self.order(stages, first := first or stages)
                     images.setdefault((name, n), []).append(image)
-                    comparison = self.stage("compare", [scene, at(frame), name, n, f"s{seed}"], {"test": image, "reference": truth})
+                    comparison = self.stage("compare", [scene, at(frame), name, n, f"s{seed}"], {"test": image, "reference": truth}, None,
+                                            ["--channels", "indirect"])
                     self.rows.append({"scene": scene, "frame": frame, "variant": name, "n": n, "seed": seed, "image": image, "stages": stages,
                                       "comparison": f"{comparison}/comparison.json", "reference": truth})
         for name, decomposition in self.experiment.get("decompositions", {}).items():
@@ -197,7 +205,7 @@ class Plan:
                 steps.append((step["name"], found if step.get("mean") else found[:1]))
             inputs = {"test": images[decomposition["variant"], n][0], "reference": truth,
                       "steps": sorted({path for _, paths in steps for path in paths})}
-            arguments = [word for cause, paths in steps for word in ("--step", f"{cause}={','.join(paths)}")]
+            arguments = ["--layer", "indirect"] + [word for cause, paths in steps for word in ("--step", f"{cause}={','.join(paths)}")]
             folder = self.stage("compare", [scene, at(frame), name, n], inputs, None, arguments)
             self.decompositions.append({"name": name, "scene": scene, "frame": frame, "n": n, "comparison": f"{folder}/comparison.json"})
 

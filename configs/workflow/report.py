@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the experiment's plots and writes report-spec.json, from which the tool `report` makes report.html. Runs in the output folder."""
+"""Draws the experiment's plots and writes report-spec.json, from which the tool `report` makes report.html. Runs in the output
+folder."""
 
 import json
 import pathlib
@@ -7,10 +8,17 @@ import pathlib
 import plots
 
 AGAINST = {"time_s": "time", "n": "the number of lights or samples"}
+FRONT = " Rings on a dotted line: the Pareto front, which no other point beats in both."
+DECOMPOSED = ("the causes of the error, each taken away after those above it. Share of the error's power, with its 95% interval; "
+              "mean and root mean square relative to the reference's mean.")
 
 
 def read_json(path):
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+
+
+def table(caption, columns, rows):
+    return {"type": "table", "caption": caption, "columns": columns, "rows": rows}
 
 
 def conditions(experiment, rows):
@@ -19,10 +27,11 @@ def conditions(experiment, rows):
     processors = sorted({name for entry in times for name in entry["processors"]})
     threads = sorted({count for entry in times for count in entry["threads"]})
     jobs = max(entry["jobs"] for entry in times)
-    disturbed = (f"Up to {jobs} tools ran at once, so the times are longer than they would be alone." if jobs > 1 else
-                 "One tool ran at a time.")
-    return (f"Images of {experiment['resolution']} pixels, compared with {experiment['reference']['samples']} samples a pixel of path tracing. "
-            f"Processor: {', '.join(processors)}; threads of each tool: {', '.join(map(str, threads))}. {disturbed}")
+    alone = "One tool ran at a time."
+    disturbed = f"Up to {jobs} tools ran at once, so the times are longer than they would be alone."
+    return (f"Images of {experiment['resolution']} pixels, compared with {experiment['reference']['samples']} samples a pixel of "
+            f"path tracing. Processor: {', '.join(processors)}; threads of each tool: {', '.join(map(str, threads))}. "
+            f"{disturbed if jobs > 1 else alone}")
 
 
 def figures(experiment, rows, x):
@@ -31,70 +40,78 @@ def figures(experiment, rows, x):
     for metric in experiment["plots"]:
         target = f"plots/{metric}-{x}"
         if plots.plot(rows, metric, x, target):
-            name = plots.LABELS.get(metric, metric)
-            found.append({"type": "figure", "svg": f"{target}.svg", "alt": f"{name} against {AGAINST[x]}, logarithmic axes, a panel a scene",
-                          "caption": f"{name} against {AGAINST[x]}; the mean over seeds and frames." +
-                                     (" Rings on a dotted line: the Pareto front, which no other point beats in both." if x == "time_s" else "")})
+            what = f"{plots.LABELS.get(metric, metric)} against {AGAINST[x]}"
+            found.append({"type": "figure", "svg": f"{target}.svg", "alt": f"{what}, logarithmic axes, a panel a scene",
+                          "caption": f"{what}; the mean over seeds and frames.{FRONT if x == 'time_s' else ''}"})
     return found
 
 
 def main_table(experiment, rows):
     metrics = list(dict.fromkeys([*experiment["plots"], "relmse_rgb", "ssim", "luminance_bias"]))
     metrics = [name for name in metrics if any(name in row["metrics"] for row in rows)]
-    frame = ["frame"] if "frames" in experiment else []
-    columns = ["scene", *frame, "variant", "N", "seed", "time, s", "with files, s", "process, s", *(plots.LABELS.get(name, name) for name in metrics)]
-    lines = [[row["scene"], *(row[key] for key in frame), row["variant"], row["n"], row["seed"], row["times"]["time_s"],
-              row["times"]["time_with_files_s"], row["times"]["wall_s"], *(row["metrics"].get(name) for name in metrics)] for row in rows]
-    return {"type": "table", "caption": "Each image. results.csv has all figures.", "columns": columns, "rows": lines}
+    keys = ["scene", *(["frame"] if "frames" in experiment else []), "variant", "n", "seed"]
+    times = {"time, s": "time_s", "with files, s": "time_with_files_s", "process, s": "wall_s"}
+    return table("Each image. results.csv has all figures.", [*keys, *times, *(plots.LABELS.get(name, name) for name in metrics)],
+                 [[*(row[key] for key in keys), *(row["times"][key] for key in times.values()),
+                   *(row["metrics"].get(name) for name in metrics)] for row in rows])
 
 
 def stage_table(rows):
-    """Seconds of each stage, without files."""
     tools = list(dict.fromkeys(tool for row in rows for tool in row["times"]["stages"]))
-    return {"type": "table", "caption": "Seconds of each stage, without the reading and writing of files.",
-            "columns": ["scene", "variant", "N", "seed", *tools],
-            "rows": [[row["scene"], row["variant"], row["n"], row["seed"], *(row["times"]["stages"].get(tool) for tool in tools)] for row in rows]}
+    keys = ["scene", "frame", "variant", "n", "seed"]
+    return table("Seconds of each stage, without the reading and writing of files.", [*keys, *tools],
+                 [[*(row[key] for key in keys), *(row["times"]["stages"].get(tool) for tool in tools)] for row in rows])
 
 
 def viewer(rows, comparisons):
-    """The first frame of a scene: each variant's dearest image beside the reference."""
-    frame, seed = rows[0]["frame"], {}
+    """The first frame of a scene: each variant's image with the largest N, of its first seed, beside the reference."""
     best = {}
     for row in rows:
-        if row["frame"] == frame and row["seed"] == seed.setdefault(row["variant"], row["seed"]):
-            if row["variant"] not in best or row["n"] > best[row["variant"]]["n"]:
-                best[row["variant"]] = row
-    tests = [{"file": row["image"], "label": row["variant"] + ("" if row["n"] is None else f", {row['n']}"), "metrics": comparisons[row["image"]]}
-             for row in best.values()]
-    return {"type": "images", "reference": {"file": rows[0]["reference"], "label": "reference"}, "tests": tests, "layers": ["indirect"]}
+        other = best.get(row["variant"])
+        if row["frame"] == rows[0]["frame"] and (other is None or (row["n"] or 0) > (other["n"] or 0)):
+            best[row["variant"]] = row
+    tests = [{"file": row["image"], "label": row["variant"] if row["n"] is None else f"{row['variant']}, {row['n']}",
+              "metrics": comparisons[row["image"]]} for row in best.values()]
+    reference = {"file": rows[0]["reference"], "label": "reference"}
+    return {"type": "images", "reference": reference, "tests": tests, "layers": ["indirect"]}
+
+
+def decomposition_lines(entry):
+    """The whole error, then what each cause has of it."""
+    found = entry["decomposition"]
+    nothing = {"share_interval": [None, None], "mean": None, "relmse_after": None}
+    lines = [{**nothing, **found["total"], "cause": "whole error", "share": 1}, *found["steps"], found["remainder"],
+             {**nothing, **found["noise"], "cause": "noise of the reference"}]
+    return [[entry["scene"], entry["frame"], entry["n"], line["cause"], line["share"], *line["share_interval"], line["mean"],
+             line["rms"], line.get("relmse"), line["relmse_after"]] for line in lines]
 
 
 def decomposition_tables(decompositions):
-    """One for each; whatever figures compare gives for the steps."""
-    blocks = []
-    for name in dict.fromkeys(entry["name"] for entry in decompositions):
-        lines = [{"scene": entry["scene"], "frame": entry["frame"], "N": entry["n"], **step} for entry in decompositions if entry["name"] == name
-                 for step in entry["decomposition"]["steps"]]
-        columns = [key for key in dict.fromkeys(key for line in lines for key in line)
-                   if all(not isinstance(line.get(key), (dict, list)) for line in lines) and any(line.get(key) is not None for line in lines)]
-        blocks.append({"type": "table", "caption": f"{name}: shares of the error by cause.", "columns": columns,
-                       "rows": [[line.get(key) for key in columns] for line in lines]})
-    return blocks
+    columns = ["scene", "frame", "n", "cause", "share", "from", "to", "mean", "rms", "relMSE", "relMSE without it"]
+    return [table(f"{name}: {DECOMPOSED}", columns,
+                  [line for entry in decompositions if entry["name"] == name for line in decomposition_lines(entry)])
+            for name in dict.fromkeys(entry["name"] for entry in decompositions)]
+
+
+def sections(plan, results):
+    experiment, rows = plan["experiment"], results["rows"]
+    comparisons = {row["image"]: row["comparison"] for row in plan["rows"]}
+    viewers = [{"title": scene, "content": [viewer([row for row in rows if row["scene"] == scene], comparisons)]}
+               for scene in experiment["scenes"]]
+    found = [{"title": "Error against time", "content": figures(experiment, rows, "time_s")},
+             {"title": "Error against N", "content": figures(experiment, rows, "n")},
+             {"title": "Causes of the error", "content": decomposition_tables(results["decompositions"])},
+             {"title": "Images", "sections": viewers},
+             {"title": "Figures", "content": [main_table(experiment, rows), stage_table(rows)]}]
+    return [section for section in found if section.get("content") or section.get("sections")]
 
 
 def main():
     plan, results = read_json("plan.json"), read_json("results.json")
-    experiment, rows = plan["experiment"], results["rows"]
-    comparisons = {row["image"]: row["comparison"] for row in plan["rows"]}
-    scenes = {scene: [row for row in rows if row["scene"] == scene] for scene in experiment["scenes"]}
-    sections = [{"title": "Error against time", "content": figures(experiment, rows, "time_s")},
-                {"title": "Error against N", "content": figures(experiment, rows, "n")},
-                {"title": "Decomposition of the error", "content": decomposition_tables(results["decompositions"])},
-                {"title": "Images", "sections": [{"title": scene, "content": [viewer(of_scene, comparisons)]} for scene, of_scene in scenes.items()]},
-                {"title": "Figures", "content": [main_table(experiment, rows), stage_table(rows)]}]
+    experiment = plan["experiment"]
+    summary = [experiment["description"]] if "description" in experiment else []
     spec = {"$schema": "vsgltools/report/1", "title": experiment.get("title", "Experiment"),
-            "summary": "\n\n".join([*([experiment["description"]] if "description" in experiment else []), conditions(experiment, rows)]),
-            "sections": [section for section in sections if section.get("content") or section.get("sections")]}
+            "summary": "\n\n".join([*summary, conditions(experiment, results["rows"])]), "sections": sections(plan, results)}
     pathlib.Path("report-spec.json").write_text(json.dumps(spec, indent=2) + "\n", encoding="utf-8")
 
 

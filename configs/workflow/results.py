@@ -55,7 +55,7 @@ def main():
     rows = [{key: row[key] for key in ("scene", "frame", "variant", "n", "seed", "image", "reference")} |
             {"metrics": metrics(row["comparison"]), "times": row_times(row["stages"])} for row in plan["rows"]]
     decompositions = [{key: entry[key] for key in ("name", "scene", "frame", "n")} |
-                      {"decomposition": read_json(entry["comparison"])["decomposition"]} for entry in plan["decompositions"]]
+                      {"decomposition": read_json(entry["comparison"])} for entry in plan["decompositions"]]
     result = {"$schema": "vsgltools/experiment-results/1", "rows": rows, "decompositions": decompositions}
     pathlib.Path("results.json").write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
     write_csv(rows, "results.csv")

@@ -17,7 +17,7 @@ from plots import pareto_front  # noqa: E402
 EXPERIMENT = {
     "$schema": "vsgltools/experiment/1",
     "resolution": "64x36",
-    "scenes": {"box": {"generate": ["cornell"]}, "hall": {"scene": "../hall.json"}},
+    "scenes": {"box": {"generate": ["cornell"]}, "hall": {"scene": "hall.json"}},
     "reference": {"samples": 64},
     "variants": {
         "fis": {"pipeline": {"vsgl_gen": {"method": "fis-2016"}}, "counts": [256, 64]},
@@ -43,6 +43,7 @@ class Files(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.path = pathlib.Path(temporary.name) / "test.json"
         self.experiment = copy.deepcopy(EXPERIMENT)
+        (self.path.parent / "hall.json").write_text('{"meshes": [{"file": "hall.glb"}, {"file": "hall.glb"}]}', encoding="utf-8")
 
     def read(self):
         self.path.write_text(json.dumps(self.experiment), encoding="utf-8")
@@ -115,6 +116,11 @@ class Strictness(Files):
         with self.assertRaisesRegex(ExperimentError, "seeds"):
             read_experiment(self.path)
 
+    def test_scene_that_is_not_there(self):
+        self.experiment["scenes"]["hall"]["scene"] = "hill.json"
+        with self.assertRaisesRegex(ExperimentError, "/scenes/hall/scene: .*hill.json"):
+            self.plan()
+
     def test_no_json(self):
         self.path.write_text("{", encoding="utf-8")
         with self.assertRaisesRegex(ExperimentError, "test.json"):
@@ -155,6 +161,11 @@ class Sharing(Files):
             self.assertEqual(stage["inputs"]["after"], first[0]["folder"] + "/report.json")
             self.assertFalse(stage["warm_up"])
 
+    def test_scene_files_are_inputs(self):
+        bake = next(stage for name, stage in self.plan().stages.items() if name.startswith("rsm-bake/hall"))
+        folder = self.path.resolve().parent
+        self.assertEqual((bake["inputs"]["scene"], bake["inputs"]["meshes"]), (str(folder / "hall.json"), [str(folder / "hall.glb")]))
+
     def test_frames(self):
         self.experiment["frames"] = [0, 7]
         plan = self.plan()
@@ -165,7 +176,7 @@ class Sharing(Files):
         plan = self.plan()
         self.assertEqual(len(plan.decompositions), 2)
         stage = plan.stages[plan.decompositions[0]["comparison"].removeprefix("stages/").removesuffix("/comparison.json")]
-        words = stage["arguments"].split()
+        words = stage["arguments"].removeprefix("--layer indirect ").split()
         self.assertEqual([word.split("=")[0] for word in words], ["--step", "sampling", "--step", "clustering"])
         self.assertEqual(words[1].count(".exr"), 2, "the mean of both seeds")
         self.assertEqual(words[3].count(".exr"), 1)
