@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "flags.h"
+#include "html.h"
 #include "stages/metrics/decomposition.h"
 
 namespace vsgl::app {
@@ -96,6 +97,22 @@ void warn(Report& report, const metrics::Decomposition& result, bool explained) 
   report.warn("step \"" + result.remainder.cause + "\": " + text);
 }
 
+// The chain as one viewer: A, what each step leaves (of several files the first), B.
+void write_page(const Tool& tool, const Inputs& inputs, const DecompositionArguments& a,
+                const std::string& layer, const nlohmann::ordered_json& result, bool explained,
+                Report& report, OutputSet& outputs) {
+  std::vector<ExrFile> files = {read_exr(inputs.reference), read_exr(inputs.test)};
+  std::vector<std::string> labels = {"", ""};
+  for (const std::string& step : a.steps) {
+    const std::size_t equals = step.find('=');
+    files.push_back(read_exr(split(step.substr(equals + 1), ',').front()));
+    labels.push_back("without " + step.substr(0, equals));
+  }
+  HtmlImages images{"Chain", {}, &files.front(), {}};
+  for (std::size_t i = 1; i < files.size(); ++i) images.tests.push_back({&files[i], labels[i]});
+  write_html(tool, inputs.html, result, explained, {images}, {layer}, report, outputs);
+}
+
 }  // namespace
 
 void declare_decomposition(Tool& tool, DecompositionArguments& a) {
@@ -117,7 +134,7 @@ Exit decompose_error(Tool& tool, const Inputs& inputs, const DecompositionArgume
                      const std::string& layer_name, const std::vector<std::string>& limits, Report& report,
                      OutputSet& outputs) {
   allow_only(tool, "--step",
-             {"test", "reference", "--output", "--limit", "--layer", "--step", "--remainder"});
+             {"test", "reference", "--output", "--html", "--limit", "--layer", "--step", "--remainder"});
   const std::optional<double> limit = limit_of(limits);
   const std::string layer = layer_name.empty() ? "indirect" : layer_name;
   const metrics::Frame test = metrics::read_frame(inputs.test, layer);
@@ -138,6 +155,7 @@ Exit decompose_error(Tool& tool, const Inputs& inputs, const DecompositionArgume
     summarise(report, result, explained);
   }
   if (!inputs.output.empty()) write_text(outputs.add(inputs.output), json.dump(2) + "\n");
+  if (!inputs.html.empty()) write_page(tool, inputs, a, layer, json, explained, report, outputs);
   return explained ? Exit::ok : Exit::differs;
 }
 

@@ -128,7 +128,7 @@ Exit compare_files(Tool& tool, const Inputs& inputs, const FilesArguments& a, Re
   write_maps(tool, a.maps, test, reference, options, report, outputs);
   if (!inputs.html.empty()) {
     const HtmlImages images{
-        "Images", {&test}, &reference, html_maps(test, reference, a.maps.layer, options.layers)};
+        "Images", {{&test}}, &reference, html_maps(test, reference, a.maps.layer, options.layers)};
     write_html(tool, inputs.html, result, comparison.failures.empty(), {images}, a.channels, report, outputs);
   }
   return comparison.failures.empty() ? Exit::ok : Exit::differs;

@@ -16,13 +16,13 @@ std::string name_of(const ExrFile& file) {
 // Nothing when the files share no layer.
 std::optional<report::Images> viewer(const HtmlImages& images, const std::vector<std::string>& channels) {
   std::vector<const ExrFile*> files = {images.reference};
-  files.insert(files.end(), images.tests.begin(), images.tests.end());
+  for (const HtmlImages::Test& test : images.tests) files.push_back(test.file);
   const std::vector<std::string> layers = report::shared_layers(files, channels);
   if (layers.empty()) return std::nullopt;
   report::Images out;
   out.reference = report::make_picture(*images.reference, name_of(*images.reference), layers);
-  for (const ExrFile* test : images.tests)
-    out.tests.push_back({report::make_picture(*test, name_of(*test), layers), {}});
+  for (const auto& [file, label] : images.tests)
+    out.tests.push_back({report::make_picture(*file, label.empty() ? name_of(*file) : label, layers), {}});
   for (const report::ErrorMap& map : images.maps)
     if (map.width == out.reference.width && map.height == out.reference.height)
       out.tests.front().maps.push_back(map);

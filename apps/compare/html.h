@@ -16,7 +16,11 @@ namespace vsgl::app {
 // A viewer of the page: what is judged, and by what.
 struct HtmlImages {
   std::string title;
-  std::vector<const ExrFile*> tests;
+  struct Test {
+    const ExrFile* file = nullptr;
+    std::string label = {};  // empty: the file's name
+  };
+  std::vector<Test> tests;
   const ExrFile* reference = nullptr;
   std::vector<report::ErrorMap> maps;  // of the first test
 };

@@ -4,6 +4,7 @@
 
 #include "base/frame_name.h"
 #include "flags.h"
+#include "html.h"
 #include "stages/metrics/sequence.h"
 
 namespace vsgl::app {
@@ -53,6 +54,19 @@ void summarise(Report& report, const nlohmann::ordered_json& result) {
   for (const auto& failure : result["failures"]) report.warn(failure["message"].get<std::string>());
 }
 
+// The first and the last frame, each with a viewer.
+void write_page(const Tool& tool, const Inputs& inputs, const metrics::Sequence& test,
+                const metrics::Sequence& reference, const nlohmann::ordered_json& result, bool passed,
+                Report& report, OutputSet& outputs) {
+  std::vector<ExrFile> files;
+  for (const int frame : {test.first, test.last})
+    for (const metrics::Sequence* sequence : {&test, &reference})
+      files.push_back(read_exr(frame_path(sequence->files, frame)));
+  const HtmlImages first{"Frame " + std::to_string(test.first), {{&files[0]}}, &files[1], {}};
+  const HtmlImages last{"Frame " + std::to_string(test.last), {{&files[2]}}, &files[3], {}};
+  write_html(tool, inputs.html, result, passed, {first, last}, {test.layer}, report, outputs);
+}
+
 }  // namespace
 
 void declare_sequences(Tool& tool, SequenceArguments& a) {
@@ -79,7 +93,8 @@ bool are_sequences(Tool& tool, const Inputs& inputs) {
 Exit compare_sequences(Tool& tool, const Inputs& inputs, const SequenceArguments& a, const std::string& layer,
                        const std::vector<std::string>& limit_texts, Report& report, OutputSet& outputs) {
   allow_only(tool, "sequences",
-             {"test", "reference", "--output", "--limit", "--layer", "--frames", "--frame-rate", "--versus"});
+             {"test", "reference", "--output", "--html", "--limit", "--layer", "--frames", "--frame-rate",
+              "--versus"});
   if (!a.frames)
     throw Error(ErrorCode::missing_option, "--frames: which frames of the sequences, FIRST:LAST");
   if (!a.versus.empty() && !names_frames(a.versus))
@@ -107,6 +122,8 @@ Exit compare_sequences(Tool& tool, const Inputs& inputs, const SequenceArguments
   summarise(report, json);
   if (tool.common().json) report.count("comparison", json);
   if (!inputs.output.empty()) write_text(outputs.add(inputs.output), json.dump(2) + "\n");
+  if (!inputs.html.empty())
+    write_page(tool, inputs, test, reference, json, failures.empty(), report, outputs);
   return failures.empty() ? Exit::ok : Exit::differs;
 }
 

@@ -106,6 +106,7 @@ class Stage {
     context.imageSmoothingQuality = "high";
     context.drawImage(region.source, left, top, this.imageWidth * zoom, this.imageHeight * zoom);
     if (zoom >= GRID_FROM) this.drawGrid(left, top);
+    if (zoom >= GRID_FROM && this.marked) this.drawMark(left, top);
     if (zoom >= VALUES_FROM) this.drawValues(left, top, region);
   }
 
@@ -123,6 +124,16 @@ class Stage {
     context.strokeStyle = "rgba(128, 128, 128, 0.45)";
     context.lineWidth = 1 / this.density;
     context.stroke();
+  }
+
+  // The inspected pixel's outline.
+  drawMark(left, top) {
+    const {context, zoom} = this, [x, y] = this.marked;
+    for (const [style, width] of [["#000", 3], ["#fff", 1.5]]) {
+      context.strokeStyle = style;
+      context.lineWidth = width;
+      context.strokeRect(left + x * zoom, top + y * zoom, zoom, zoom);
+    }
   }
 
   // The values of each visible pixel, written into it.

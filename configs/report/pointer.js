@@ -63,9 +63,7 @@ class StagePointer {
 
   inspect(x, y) {
     const pixel = this.viewer.stage.pixelAt(x, y);
-    if (!pixel) return;
-    this.viewer.pixel = pixel;
-    this.viewer.showReadout();
+    if (pixel && String(pixel) !== String(this.viewer.pixel)) this.viewer.inspect(pixel);
   }
 
   // The wheel scrolls the page until the image has been clicked.

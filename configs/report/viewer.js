@@ -240,14 +240,19 @@ class Viewer {
     this.stage.update();
   }
 
-  movePixel(dx, dy) {
-    const [x, y] = this.pixel ?? this.stage.centre.map(Math.floor);
-    this.pixel = [clamp(x + dx, 0, this.set.width - 1), clamp(y + dy, 0, this.set.height - 1)];
+  inspect(pixel) {
+    this.pixel = this.stage.marked = pixel;
+    this.stage.draw();
     this.showReadout();
   }
 
+  movePixel(dx, dy) {
+    const [x, y] = this.pixel ?? this.stage.centre.map(Math.floor);
+    this.inspect([clamp(x + dx, 0, this.set.width - 1), clamp(y + dy, 0, this.set.height - 1)]);
+  }
+
   showPixel(x, y) {
-    this.pixel = [clamp(x, 0, this.set.width - 1), clamp(y, 0, this.set.height - 1)];
+    this.inspect([clamp(x, 0, this.set.width - 1), clamp(y, 0, this.set.height - 1)]);
     this.stage.show(this.pixel);
     this.root.scrollIntoView({block: "nearest"});
   }

@@ -40,15 +40,18 @@ std::string section_html(const Section& section, const std::string& id, int leve
   const std::string heading = "h" + std::to_string(level);
   std::string out = "<section id=\"" + id + "\" aria-labelledby=\"" + id + "-title\"><" + heading + " id=\"" +
                     id + "-title\">" + escape_html(section.title) + "</" + heading + ">\n";
-  // Figures in a row stand side by side where there is room.
-  bool in_figures = false;
+  // Figures in a row, and tables in a row, stand side by side where there is room.
+  std::string row;
   for (const Block& block : section.content) {
-    const bool figure = std::holds_alternative<Figure>(block);
-    if (figure != in_figures) out += figure ? "<div class=\"plots\">" : "</div>\n";
-    in_figures = figure;
+    const std::string wanted = std::holds_alternative<Figure>(block)  ? "plots"
+                               : std::holds_alternative<Table>(block) ? "tables"
+                                                                      : "";
+    if (wanted != row && !row.empty()) out += "</div>\n";
+    if (wanted != row && !wanted.empty()) out += "<div class=\"" + wanted + "\">\n";
+    row = wanted;
     out += block_html(block, blobs);
   }
-  if (in_figures) out += "</div>\n";
+  if (!row.empty()) out += "</div>\n";
   for (std::size_t i = 0; i < section.sections.size(); ++i)
     out += section_html(section.sections[i], section_id(id, i), level + 1, blobs);
   return out + "</section>\n";

@@ -40,8 +40,8 @@ std::string spaced(std::string key) {
 }
 
 bool is_pixel(const std::string& key, const Json& value) {
-  return key.ends_with("_pixel") && value.is_array() && value.size() == 2 && value[0].is_number_unsigned() &&
-         value[1].is_number_unsigned();
+  return key.ends_with("_pixel") && value.is_array() && value.size() == 2 && value[0].is_number_integer() &&
+         value[1].is_number_integer();
 }
 
 // "a, b, c".
@@ -98,12 +98,12 @@ Table table_of_rows(const std::vector<Row>& rows) {
   return table;
 }
 
-// Rows become columns; the first column names the figures.
+// Rows become columns, named by what stood first in them.
 Table transposed(const Table& table) {
-  Table out{table.caption, {""}, {}};
-  for (std::size_t r = 0; r < table.rows.size(); ++r)
-    out.columns.push_back(table.rows.size() == 1 ? "value" : std::to_string(r + 1));
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+  Table out{table.caption, {table.columns.empty() ? "" : table.columns.front()}, {}};
+  for (const auto& row : table.rows)
+    out.columns.push_back(row.front().is_string() ? row.front().get<std::string>() : row.front().dump());
+  for (std::size_t c = 1; c < table.columns.size(); ++c) {
     auto& cells = out.rows.emplace_back(1, table.columns[c]);
     for (const auto& row : table.rows) cells.push_back(row[c]);
   }
@@ -111,7 +111,7 @@ Table transposed(const Table& table) {
 }
 
 Table table_of_object(const Json& object) {
-  Row row;
+  Row row = {{"", "value"}};
   flatten(object, "", row);
   return transposed(table_of_rows({row}));
 }
