@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The benchmark: the shading kernel against native code on the same data, the demo chain stage by stage, and error against time of a small
-experiment.
+"""The benchmark: the shading kernel against native code on the same data, the demo chain stage by stage, and error against time of
+a small experiment.
 
-Times of the chain are medians of several runs, first cold (empty shader cache) and then warm. Nothing here is a pass or fail: figures are
-for comparison inside one run, as ratios."""
+Times of the chain are medians of several runs, first cold (empty shader cache) and then warm. Nothing here is a pass or fail:
+figures are for comparison inside one run, as ratios."""
 
 import argparse
 import json
@@ -39,8 +39,9 @@ def chain_times(bin_dir, folder, repetitions):
 
 def experiment(bin_dir, folder):
     """Runs configs/experiments/small.json; returns the rows of its table. What is there already is not timed again."""
-    subprocess.run([sys.executable, str(WORKFLOW / "experiment.py"), str(WORKFLOW.parent / "experiments" / "small.json"), "--bin", str(bin_dir),
-                    "--output", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    small = WORKFLOW.parent / "experiments" / "small.json"
+    subprocess.run([sys.executable, WORKFLOW / "experiment.py", small, "--bin", bin_dir, "--output", folder], check=True,
+                   stdout=subprocess.DEVNULL)
     return json.loads((folder / "results.json").read_text(encoding="utf-8"))["rows"]
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs an experiment: scenes x frames x variants x N x seeds, each image compared with a reference. What is there already and still
-valid is not made again. docs/experiments.md describes the files."""
+"""Runs an experiment: scenes x frames x variants x N x seeds, each image compared with a reference. What is there already and
+still valid is not made again. docs/experiments.md describes the files."""
 
 import argparse
 import fcntl
@@ -101,8 +101,8 @@ def lock_folder(folder):
 
 
 def run_snakemake(folder, bin_dir, threads, jobs, further, lock):
-    """Its exit status. Its own locks are off: they would outlive a killed run. Folders are named after options, so that the times of files
-    are all that a rerun needs to look at."""
+    """Its exit status. Its own locks are off: they would outlive a killed run. Folders are named after options, so that the times
+    of files are all that a rerun needs to look at."""
     command = [SNAKEMAKE, "--snakefile", WORKFLOW / "Snakefile", "--directory", folder, "--scheduler", "greedy", "--nolock",
                "--rerun-incomplete", "--rerun-triggers", "mtime", "--drop-metadata", "--quiet", "all"]
     if not {"--profile", "--cluster", "--cores"} & set(further):
@@ -118,7 +118,8 @@ def main():
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the results")
     parser.add_argument("--jobs", type=int, default=1, help="tools that run at once; more than 1 disturbs the times (default 1)")
     parser.add_argument("--threads", type=int, help="of each tool (default: all cores, divided by --jobs)")
-    parser.add_argument("--snakemake", type=shlex.split, default=[], metavar="ARGS", help="further arguments of snakemake, in one word")
+    parser.add_argument("--snakemake", type=shlex.split, default=[], metavar="ARGS",
+                        help="further arguments of snakemake, in one word")
     options = parser.parse_args()
     path = options.experiment
     experiment = read_experiment(path)

@@ -1,4 +1,5 @@
-"""From an experiment's JSON to its plan: the stages that must run, each with its options and input files, and the rows of the table.
+"""From an experiment's JSON to its plan: the stages that must run, each with its options and input files, and the rows of the
+table.
 
 A stage's folder is named after a hash of its tool, options, arguments and input folders, so that equal stages are one and a
 changed option changes the names of that stage and of those after it only."""
@@ -59,12 +60,12 @@ def check_names(path, experiment):
     variants = experiment["variants"]
     for name, variant in variants.items():
         require("count" not in variant.get("pipeline", {}).get("vsgl_gen", {}) or "counts" not in variant,
-                ["variants", name, "pipeline", "vsgl_gen", "count"], "is given by /variants/" + name + "/counts as well; remove one")
+                ["variants", name, "pipeline", "vsgl_gen", "count"], f"is given by /variants/{name}/counts as well; remove one")
         if "reference" in variant:
             require("samples" not in variant["reference"], ["variants", name, "reference", "samples"],
-                    "belongs beside it, as a list: /variants/" + name + "/samples")
+                    f"belongs beside it, as a list: /variants/{name}/samples")
             require(experiment["reference"]["seed"] not in variant.get("seeds", experiment["seeds"]), ["reference", "seed"],
-                    f"is a seed of the variant \"{name}\" too, which would share the reference's paths and look better than it is")
+                    f"is a seed of the variant \"{name}\" too, which would share its paths and look better than it is")
     for name, decomposition in experiment.get("decompositions", {}).items():
         where = ["decompositions", name]
         for used, place in [(decomposition["variant"], where + ["variant"])] + [
@@ -74,6 +75,10 @@ def check_names(path, experiment):
             counts = variants[used].get("counts")
             require(counts is None or set(variants[decomposition["variant"]].get("counts", [None])) <= set(counts), place,
                     f"\"{used}\" lacks numbers of lights that \"{decomposition['variant']}\" has")
+        for i, step in enumerate(decomposition["steps"]):
+            seeds = variants[step["variant"]].get("seeds", experiment["seeds"])
+            require(not step.get("mean") or len(seeds) > 1, where + ["steps", i, "mean"],
+                    f"\"{step['variant']}\" has no seed but the first, whose image is not part of the mean")
 
 
 def digest(value):
@@ -96,7 +101,7 @@ class Plan:
                 self.add_frame(scene, frame)
 
     def stage(self, tool, label, inputs, options=None, arguments=(), origin=()):
-        """Returns its folder. inputs: name in the rule -> path, or list of paths, relative to the experiment's output folder."""
+        """Returns its folder. inputs: name in the rule -> path, or list of paths, relative to the output folder."""
         content = {"tool": tool, "options": options, "arguments": list(arguments), "inputs": inputs}
         name = f"{tool}/{'-'.join(str(part) for part in label if part is not None)}-{digest(content)}"
         folder = f"stages/{name}"
@@ -143,15 +148,18 @@ class Plan:
         def method(key):
             return (pipeline.get(key) or {}).get("method")
 
-        bake = self.bake(scene, frame, pipeline.get("rsm_bake"), (*origin, "rsm_bake") if "rsm_bake" in pipeline else ("rsm_bake",))
+        own = "rsm_bake" in pipeline
+        bake = self.bake(scene, frame, pipeline.get("rsm_bake"), (*origin, "rsm_bake") if own else ("rsm_bake",))
         rsm, gbuffer = f"{bake}/rsm.exr", f"{bake}/gbuffer.exr"
-        stages = {"rsm-bake": bake, "pdf-build": stage("pdf-build", [method("pdf_build")], {"rsm": rsm, "gbuffer": gbuffer})}
+        stages = {"rsm-bake": bake}
+        stages["pdf-build"] = stage("pdf-build", [method("pdf_build")], {"rsm": rsm, "gbuffer": gbuffer})
         count = {} if n is None else {"count": n}
         inputs = {"rsm": rsm, "pdf": f"{stages['pdf-build']}/pdf.exr"}
         stages["vsgl-gen"] = stage("vsgl-gen", [method("vsgl_gen"), n, f"s{seed}"], inputs, ["--seed", str(seed)], **count)
         inputs = {"gbuffer": gbuffer, "lights": f"{stages['vsgl-gen']}/lights.exr"}
         if pipeline.get("ismap", {}) is not None:
-            seen = {**self.scene(scene), "lights": inputs["lights"]} | ({"gbuffer": gbuffer} if method("ismap") == "raytraced" else {})
+            pixels = {"gbuffer": gbuffer} if method("ismap") == "raytraced" else {}
+            seen = {**self.scene(scene), "lights": inputs["lights"], **pixels}
             stages["ismap"] = stage("ismap", [method("vsgl_gen"), n, f"s{seed}", method("ismap")], seen, frame_arguments(frame))
             inputs["ism"] = f"{stages['ismap']}/ism.exr"
         stages["shade"] = stage("shade", [method("shade"), n, f"s{seed}"], inputs)
@@ -169,7 +177,7 @@ class Plan:
         """All images of one frame of a scene, and their comparison with its reference."""
         options = {key: value for key, value in self.experiment["reference"].items() if key != "seed"}
         truth = self.trace(scene, frame, options, self.experiment["reference"]["seed"], ("reference",))
-        self.stages[str(pathlib.PurePath(truth).parent.relative_to("stages"))]["checkpoint"] = True  # long, and its time does not count
+        self.stages[stage_of(truth)]["checkpoint"] = True  # long, and its time does not count
         images = {}
         for name, variant in self.experiment["variants"].items():
             first = None
@@ -178,20 +186,20 @@ class Plan:
                     image, stages = self.image(scene, frame, name, n, seed)
                     self.order(stages, first := first or stages)
                     images.setdefault((name, n), []).append(image)
-                    comparison = self.stage("compare", [scene, at(frame), name, n, f"s{seed}"], {"test": image, "reference": truth}, None,
-                                            ["--channels", "indirect"])
-                    self.rows.append({"scene": scene, "frame": frame, "variant": name, "n": n, "seed": seed, "image": image, "stages": stages,
-                                      "comparison": f"{comparison}/comparison.json", "reference": truth})
+                    comparison = self.stage("compare", [scene, at(frame), name, n, f"s{seed}"],
+                                            {"test": image, "reference": truth}, None, ["--channels", "indirect"])
+                    self.rows.append({"scene": scene, "frame": frame, "variant": name, "n": n, "seed": seed, "image": image,
+                                      "reference": truth, "stages": stages, "comparison": f"{comparison}/comparison.json"})
         for name, decomposition in self.experiment.get("decompositions", {}).items():
             self.decompose(scene, frame, name, decomposition, images, truth)
 
     def order(self, stages, first):
-        """Of a variant's images the first, with the fewest lights, is made first, and after a warm-up run: so that shaders are compiled before
-        the times of the others count."""
+        """Of a variant's images the one with the fewest lights is made first, and after a warm-up run: so that shaders are
+        compiled before the times of the others count."""
         for tool in ("vsgl-gen", "ismap", "shade"):
             if tool not in stages:
                 continue
-            stage, before = (self.stages[folder.removeprefix("stages/")] for folder in (stages[tool], first[tool]))
+            stage, before = (self.stages[stage_of(f"{folder}/report.json")] for folder in (stages[tool], first[tool]))
             if stage is not before:
                 stage["inputs"]["after"] = f"{before['folder']}/report.json"
                 before["warm_up"] = True
@@ -202,15 +210,23 @@ class Plan:
             steps = []
             for step in decomposition["steps"]:
                 found = images.get((step["variant"], n)) or images[step["variant"], None]
-                steps.append((step["name"], found if step.get("mean") else found[:1]))
+                steps.append((step["name"], found[1:] if step.get("mean") else found[:1]))
             inputs = {"test": images[decomposition["variant"], n][0], "reference": truth,
                       "steps": sorted({path for _, paths in steps for path in paths})}
-            arguments = ["--layer", "indirect"] + [word for cause, paths in steps for word in ("--step", f"{cause}={','.join(paths)}")]
+            arguments = ["--layer", "indirect"]
+            for cause, paths in steps:
+                arguments += ["--step", f"{cause}={','.join(paths)}"]
             folder = self.stage("compare", [scene, at(frame), name, n], inputs, None, arguments)
-            self.decompositions.append({"name": name, "scene": scene, "frame": frame, "n": n, "comparison": f"{folder}/comparison.json"})
+            self.decompositions.append({"name": name, "scene": scene, "frame": frame, "n": n,
+                                        "comparison": f"{folder}/comparison.json"})
 
     def to_json(self):
         return {"experiment": self.experiment, "stages": self.stages, "rows": self.rows, "decompositions": self.decompositions}
+
+
+def stage_of(path):
+    """Name of the stage that makes the file."""
+    return str(pathlib.PurePath(path).parent.relative_to("stages"))
 
 
 def at(frame):

@@ -1,7 +1,8 @@
-"""Plots of an experiment's table with matplotlib: error against time, with the Pareto front, and error against N. The same table gives
-the same bytes."""
+"""Plots of an experiment's table with matplotlib: error against time, with the Pareto front, and error against N. The same table
+gives the same bytes."""
 
 import pathlib
+import statistics
 
 import matplotlib
 
@@ -12,10 +13,12 @@ import matplotlib.ticker  # noqa: E402
 # Okabe and Ito's palette, told apart with any colour vision, and a marker each for print without colour.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
-LABELS = {"relmse_rgb": "relMSE", "relmse_denoised": "relMSE, less the reference's noise", "relmse_trimmed": "relMSE, trimmed", "flip": "FLIP",
-          "luminance_bias": "mean over the reference's", "time_s": "time without files, s", "n": "lights, or samples a pixel"}
-STYLE = {"svg.hashsalt": "vsgltools", "svg.fonttype": "path", "font.size": 9, "axes.grid": True, "axes.grid.which": "both", "grid.linewidth": 0.4,
-         "grid.color": "#d8d8d8", "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False}
+LABELS = {"relmse_rgb": "relMSE", "relmse_denoised": "relMSE, less the reference's noise", "relmse_trimmed": "relMSE, trimmed",
+          "flip": "FLIP", "ssim": "SSIM", "luminance_bias": "mean over the reference's", "time_s": "time without files, s",
+          "n": "lights, or samples a pixel"}
+STYLE = {"svg.hashsalt": "vsgltools", "svg.fonttype": "path", "font.size": 9, "axes.grid": True, "axes.grid.which": "both",
+         "grid.linewidth": 0.4, "grid.color": "#d8d8d8", "axes.axisbelow": True, "axes.spines.top": False,
+         "axes.spines.right": False}
 
 
 def pareto_front(points):
@@ -28,24 +31,17 @@ def pareto_front(points):
 
 
 def series(rows, scene, metric, x):
-    """variant -> [(x, error)], the mean over seeds and frames, by rising N. Without what a log-log plot cannot show."""
+    """variant -> [(x, error)], the means over seeds and frames, by rising N. Without what logarithmic axes cannot show."""
     groups = {}
     for row in rows:
         if row["scene"] == scene:
-            groups.setdefault(row["variant"], {}).setdefault(row["n"], []).append(row)
-    def mean(group, value):
-        return sum(value(row) for row in group) / len(group)
-
+            groups.setdefault((row["variant"], row["n"]), []).append(row)
     found = {}
-    for variant, by_n in groups.items():
-        points = []
-        for n in sorted(by_n, key=lambda count: count or 0):
-            errors = [row["metrics"].get(metric) for row in by_n[n]]
-            if all(error is not None and error > 0 for error in errors) and (x == "time_s" or n is not None):
-                points.append((mean(by_n[n], (lambda row: row["times"]["time_s"]) if x == "time_s" else (lambda row: row["n"])),
-                               sum(errors) / len(errors)))
-        if points:
-            found[variant] = points
+    for (variant, n), group in sorted(groups.items(), key=lambda item: item[0][1] or 0):
+        errors = [row["metrics"].get(metric) for row in group]
+        places = [row["times"]["time_s"] if x == "time_s" else n for row in group]
+        if None not in places and all(error is not None and error > 0 for error in errors):
+            found.setdefault(variant, []).append((statistics.fmean(places), statistics.fmean(errors)))
     return found
 
 
@@ -75,6 +71,14 @@ def draw(axes, curves, variants, x, metric):
     axes.set_ylabel(LABELS.get(metric, metric))
 
 
+def legend(figure, panels):
+    """One for all panels, below them."""
+    labels = {}
+    for panel in panels.flat:
+        labels.update((label, handle) for handle, label in zip(*panel.get_legend_handles_labels()))
+    figure.legend(labels.values(), labels.keys(), loc="upper center", bbox_to_anchor=(0.5, 0), ncol=len(labels), frameon=False)
+
+
 def plot(rows, metric, x, target):
     """A panel a scene. Writes target.svg and target.png; nothing, and returns False, where there is nothing to show."""
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
@@ -83,20 +87,16 @@ def plot(rows, metric, x, target):
     if not any(curves.values()):
         return False
     columns = min(2, len(scenes))
+    lines = -(-len(scenes) // columns)
     with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(-(-len(scenes) // columns), columns, squeeze=False, layout="constrained",
-                                      figsize=(4.6 * columns, 3.4 * -(-len(scenes) // columns) + 0.4))
+        figure, panels = plt.subplots(lines, columns, squeeze=False, layout="constrained", figsize=(4.6 * columns, 3.4 * lines))
         for panel, scene in zip(panels.flat, scenes):
             panel.set_title(scene, loc="left", fontweight="bold")
             if curves[scene]:
                 draw(panel, curves[scene], variants, x, metric)
         for panel in panels.flat[len(scenes):]:
             panel.set_visible(False)
-        labels = {}
-        for panel in panels.flat:
-            labels.update((label, handle) for handle, label in zip(*panel.get_legend_handles_labels()))
-        figure.legend(labels.values(), labels.keys(), loc="upper center", ncol=len(labels), frameon=False,
-                      bbox_to_anchor=(0.5, 0))
+        legend(figure, panels)
         pathlib.Path(target).parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(f"{target}.svg", metadata={"Date": None, "Creator": None}, bbox_inches="tight")
         figure.savefig(f"{target}.png", dpi=110, metadata={"Software": None}, bbox_inches="tight")

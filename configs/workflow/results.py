@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the experiment's table, results.json and results.csv, from plan.json and what the stages left. Runs in the output folder."""
+"""Makes the experiment's table, results.json and results.csv, from plan.json and what the stages left. Runs in the output
+folder."""
 
 import csv
 import json
@@ -17,14 +18,16 @@ def stage_times(folder):
     report = read_json(f"{folder}/report.json")
     phases = [(phase["name"].split()[0] in ("read", "write"), phase["host_s"]) for phase in report["phases"]]
     process = {key: report["process"][key] for key in ("wall_s", "jobs", "threads", "processor")}
-    return {"time_s": sum(seconds for files, seconds in phases if not files), "time_with_files_s": sum(seconds for _, seconds in phases), **process}
+    return {"time_s": sum(seconds for files, seconds in phases if not files),
+            "time_with_files_s": sum(seconds for _, seconds in phases), **process}
 
 
 def row_times(folders):
     """Of all stages that made an image."""
     stages = {tool: stage_times(folders[tool]) for tool in STAGES if tool in folders}
     sums = {key: sum(stage[key] for stage in stages.values()) for key in ("time_s", "time_with_files_s", "wall_s")}
-    conditions = {"jobs": max(stage["jobs"] for stage in stages.values()), "threads": sorted({stage["threads"] for stage in stages.values()}),
+    conditions = {"jobs": max(stage["jobs"] for stage in stages.values()),
+                  "threads": sorted({stage["threads"] for stage in stages.values()}),
                   "processors": sorted({stage["processor"] for stage in stages.values()})}
     return {**sums, "stages": {tool: stage["time_s"] for tool, stage in stages.items()}, **conditions}
 
@@ -41,12 +44,11 @@ def write_csv(rows, target):
     names = list(dict.fromkeys(name for row in rows for name in row["metrics"]))
     with open(target, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["scene", "frame", "variant", "n", "seed", *(f"{tool.replace('-', '_')}_s" for tool in used), "time_s", "time_with_files_s",
-                         "wall_s", "jobs", *names])
+        keys, sums = ["scene", "frame", "variant", "n", "seed"], ["time_s", "time_with_files_s", "wall_s", "jobs"]
+        writer.writerow([*keys, *(f"{tool.replace('-', '_')}_s" for tool in used), *sums, *names])
         for row in rows:
             times = row["times"]
-            writer.writerow([row["scene"], row["frame"], row["variant"], row["n"], row["seed"], *(times["stages"].get(tool) for tool in used),
-                             times["time_s"], times["time_with_files_s"], times["wall_s"], times["jobs"],
+            writer.writerow([*(row[key] for key in keys), *(times["stages"].get(tool) for tool in used), *(times[key] for key in sums),
                              *(row["metrics"].get(name) for name in names)])
 
 

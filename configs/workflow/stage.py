@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs one tool of the chain for the workflow, in its stage's folder. report.json keeps what the tool tells and what its process took:
-all that was measured is there, so that everything else is the same bytes in every run.
+"""Runs one tool of the chain for the workflow, in its stage's folder. report.json keeps what the tool tells and what its process
+took: all that was measured is there, so that everything else is the same bytes in every run.
 
 The folder is locked while the tool runs. A tool that outlives a workflow killed half-way is so waited for, not met."""
 

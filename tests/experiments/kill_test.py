@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The tiny experiment, killed with SIGKILL at ten random moments (all of its processes) and restarted each time, ends with the bytes of the
-undisturbed run. So does one whose tool dies between writing its temporary file and renaming it."""
+"""The tiny experiment, killed with SIGKILL at ten random moments (all of its processes) and restarted each time, ends with the
+bytes of the undisturbed run. So does one whose tool dies between writing its temporary file and renaming it."""
 
 import os
 import pathlib
@@ -18,7 +18,8 @@ KILLS = 10
 
 def progress(folder):
     """How many steps are done: stages, table, plots, report."""
-    return len(list(folder.glob("stages/*/*/report.json"))) + sum((folder / name).exists() for name in ("results.json", "report-spec.json", "report.html"))
+    last = ["results.json", "report-spec.json", "report.html"]
+    return len(list(folder.glob("stages/*/*/report.json"))) + sum((folder / name).exists() for name in last)
 
 
 def run_until(bin_dir, folder, steps, delay):

@@ -111,6 +111,10 @@ class Strictness(Files):
         self.experiment["decompositions"]["split"]["steps"][0]["variant"] = "fis-sharp"
         self.assert_error("/decompositions/split/steps/0/variant", "lacks numbers of lights")
 
+    def test_mean_of_one_seed(self):
+        self.experiment["variants"]["fis"]["seeds"] = [3]
+        self.assert_error("/decompositions/split/steps/0/mean", "no seed but the first")
+
     def test_key_twice(self):
         self.path.write_text('{"seeds": [1], "seeds": [2]}', encoding="utf-8")
         with self.assertRaisesRegex(ExperimentError, "seeds"):
@@ -170,7 +174,8 @@ class Sharing(Files):
         self.experiment["frames"] = [0, 7]
         plan = self.plan()
         self.assertEqual(tools(plan)["rsm-bake"], 4)
-        self.assertEqual({stage["arguments"] for name, stage in plan.stages.items() if name.startswith("rsm-bake/")}, {"--frame 0", "--frame 7"})
+        bakes = {stage["arguments"] for name, stage in plan.stages.items() if name.startswith("rsm-bake/")}
+        self.assertEqual(bakes, {"--frame 0", "--frame 7"})
 
     def test_decomposition(self):
         plan = self.plan()
@@ -178,7 +183,8 @@ class Sharing(Files):
         stage = plan.stages[plan.decompositions[0]["comparison"].removeprefix("stages/").removesuffix("/comparison.json")]
         words = stage["arguments"].removeprefix("--layer indirect ").split()
         self.assertEqual([word.split("=")[0] for word in words], ["--step", "sampling", "--step", "clustering"])
-        self.assertEqual(words[1].count(".exr"), 2, "the mean of both seeds")
+        self.assertEqual(words[1].count("-s1-"), 1)
+        self.assertEqual(words[1].count(".exr"), 1, "the first seed is not part of the mean")
         self.assertEqual(words[3].count(".exr"), 1)
         self.assertEqual(set(stage["inputs"]["steps"]), {path for word in words[1::2] for path in word.split("=")[1].split(",")})
 

@@ -19,7 +19,8 @@ def ran(folder, before):
 
 def stage_times(folder):
     """Stage -> what report.json says and when it was written: a run of the stage changes it."""
-    return {str(path.parent.relative_to(folder / "stages")): (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.glob("stages/*/*/report.json")}
+    return {str(path.parent.relative_to(folder / "stages")): (path.read_bytes(), path.stat().st_mtime_ns)
+            for path in folder.glob("stages/*/*/report.json")}
 
 
 class Rerun(unittest.TestCase):
@@ -45,7 +46,8 @@ class Rerun(unittest.TestCase):
     def test_shade_options(self):
         self.run_edited(lambda experiment: experiment["variants"]["fis-2016"]["pipeline"]["shade"].update(cbr=0))
         again = ran(self.folder, self.before)
-        self.assertEqual(sorted({name.split("/")[0] for name in again}), ["compare", "ismap", "shade"])  # shadow maps are not kept
+        # Shadow maps are not kept.
+        self.assertEqual(sorted({name.split("/")[0] for name in again}), ["compare", "ismap", "shade"])
         self.assertEqual(len(again), 6)
         self.assertEqual(len(stage_times(self.folder)), len(self.before), "stages that nobody needs any more are still there")
 

@@ -1,5 +1,5 @@
-"""A Slurm cluster of one machine, for as long as a `with` block lasts: munged, slurmctld and slurmd with folders, ports, key and sockets
-of their own in a temporary directory. Nothing of the system's configuration is read or changed."""
+"""A Slurm cluster of one machine, for as long as a `with` block lasts: munged, slurmctld and slurmd with folders, ports, key and
+sockets of their own in a temporary directory. Nothing of the system's configuration is read or changed."""
 
 import contextlib
 import os
@@ -16,8 +16,8 @@ PROGRAMS = ["munged", "slurmctld", "slurmd", "sinfo", "sbatch"]
 CONFIGURATION = """
 ClusterName=experiments
 SlurmctldHost={host}(127.0.0.1)
-SlurmUser={user}
-SlurmdUser={user}
+SlurmUser=root
+SlurmdUser=root
 AuthType=auth/munge
 AuthInfo=socket={folder}/munge.socket
 CredType=cred/munge
@@ -86,7 +86,8 @@ def stop(process):
 
 @contextlib.contextmanager
 def cluster(cpus):
-    """Yields the environment in which Slurm's commands reach the cluster. Raises TimeoutError, with the daemons' logs, if it does not start."""
+    """Yields the environment in which Slurm's commands reach the cluster. Raises TimeoutError, with the daemons' logs, if it does not
+    start."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="vsgl-slurm-"))
     folder.chmod(0o755)  # munge's socket wants folders that anybody may enter
     processes = []
@@ -99,8 +100,8 @@ def cluster(cpus):
     try:
         controller_port, node_port = free_ports(2)
         host = socket.gethostname().split(".")[0]
-        (folder / "slurm.conf").write_text(CONFIGURATION.format(folder=folder, host=host, user="root", cpus=cpus, controller_port=controller_port,
-                                                                node_port=node_port), encoding="utf-8")
+        text = CONFIGURATION.format(folder=folder, host=host, cpus=cpus, controller_port=controller_port, node_port=node_port)
+        (folder / "slurm.conf").write_text(text, encoding="utf-8")
         key = folder / "munge.key"
         key.touch(mode=0o600)
         key.write_bytes(secrets.token_bytes(128))

@@ -18,7 +18,7 @@ def parser(description):
     """With the arguments that all tests take."""
     result = argparse.ArgumentParser(description=description)
     result.add_argument("--bin", required=True, type=pathlib.Path, help="folder of the tools")
-    result.add_argument("--undisturbed", required=True, type=pathlib.Path, help="output folder of a run of tiny.json, as fixture.py leaves it")
+    result.add_argument("--undisturbed", required=True, type=pathlib.Path, help="output folder of a run of tiny.json, see fixture.py")
     return result
 
 
@@ -28,7 +28,8 @@ def command(bin_dir, output, *further, experiment=TINY):
 
 def run(bin_dir, output, *further, experiment=TINY, env=None, check=True):
     """Runs an experiment to its end; returns its process. A failure fails the test, with what the workflow wrote."""
-    done = subprocess.run(command(bin_dir, output, *further, experiment=experiment), env=env, capture_output=True, text=True, check=False)
+    arguments = command(bin_dir, output, *further, experiment=experiment)
+    done = subprocess.run(arguments, env=env, capture_output=True, text=True, check=False)
     if check and done.returncode != 0:
         raise AssertionError(f"{done.args} ended with status {done.returncode}\n{done.stdout}{done.stderr}")
     return done
