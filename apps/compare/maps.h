@@ -1,6 +1,6 @@
 #pragma once
 
-// Maps of where two files differ: --error-map, --false-color, --side-by-side.
+// Maps of where two files differ: --error-map, --false-color, --side-by-side, --flip-map, --ssim-map.
 
 #include "base/tool.h"
 #include "stages/metrics/compare.h"
@@ -8,7 +8,7 @@
 namespace vsgl::app {
 
 struct MapArguments {
-  std::filesystem::path error_map, false_colour, side_by_side;
+  std::filesystem::path error_map, false_colour, side_by_side, flip_map, ssim_map;
   std::string layer, exposure = "auto";
 };
 

@@ -11,7 +11,8 @@ import tempfile
 import jsonschema
 
 from blackbox import require, run, run_checks
-from compare_test import SIZE, write_exr
+from compare_test import SIZE
+from plain_exr import write_exr
 
 SCHEMAS = pathlib.Path(__file__).resolve().parents[2] / "configs/schema"
 FRAMES = 6
@@ -36,7 +37,7 @@ class ModesTest:
             jsonschema.Draft202012Validator.check_schema(schema)
 
     def write(self, name, channels):
-        write_exr(self.folder / name, channels)
+        write_exr(self.folder / name, SIZE, SIZE, channels)
 
     def sequence(self, name, image, frames=FRAMES):
         for frame in range(frames):

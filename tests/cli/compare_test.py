@@ -10,36 +10,10 @@ import tempfile
 import jsonschema
 
 from blackbox import require, run, run_checks
+from plain_exr import write_exr
 
 SCHEMA = pathlib.Path(__file__).resolve().parents[2] / "configs/schema/compare.schema.json"
 SIZE = 8
-UINT, FLOAT = 0, 2
-
-
-def attribute(name, kind, data):
-    return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
-
-
-def write_exr(path, channels):
-    """An uncompressed EXR of SIZE x SIZE pixels, written without OpenEXR; `channels`: name to values (int: UINT, float: FLOAT)."""
-    names = sorted(channels)
-    types = {name: UINT if isinstance(channels[name][0], int) else FLOAT for name in names}
-    entries = b"".join(name.encode() + b"\0" + struct.pack("<iiii", types[name], 0, 1, 1) for name in names)
-    window = struct.pack("<iiii", 0, 0, SIZE - 1, SIZE - 1)
-    header = struct.pack("<ii", 20000630, 2) + b"".join([
-        attribute("channels", "chlist", entries + b"\0"), attribute("compression", "compression", b"\0"),
-        attribute("dataWindow", "box2i", window), attribute("displayWindow", "box2i", window),
-        attribute("lineOrder", "lineOrder", b"\0"), attribute("pixelAspectRatio", "float", struct.pack("<f", 1)),
-        attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0)),
-        attribute("screenWindowWidth", "float", struct.pack("<f", 1))]) + b"\0"
-    rows = []
-    for y in range(SIZE):
-        row = b"".join(struct.pack(f"<{SIZE}{'If'[types[name] == FLOAT]}", *channels[name][y * SIZE:(y + 1) * SIZE])
-                       for name in names)
-        rows.append(struct.pack("<ii", y, len(row)) + row)
-    first = len(header) + 8 * SIZE
-    table = struct.pack(f"<{SIZE}Q", *(first + y * len(rows[0]) for y in range(SIZE)))
-    path.write_bytes(header + table + b"".join(rows))
 
 
 def image(gain=1.0):
@@ -58,7 +32,7 @@ class CompareTest:
         variants["nan"]["indirect.G"][5] = float("nan")
         del variants["few"]["indirect.B"]
         for name, channels in variants.items():
-            write_exr(self.folder / f"{name}.exr", channels)
+            write_exr(self.folder / f"{name}.exr", SIZE, SIZE, channels)
         (self.folder / "short.exr").write_bytes((self.folder / "a.exr").read_bytes()[:900])
 
     def run(self, *arguments):
@@ -115,11 +89,33 @@ class CompareTest:
             require(size == (width, SIZE), f"{name} is {size}")
         self.judge(0, "same", [], "e.exr", "e.exr")
 
+    def layers(self):
+        document = self.judge(0, "within_thresholds", [], "brighter.exr", "a.exr", "--limit", "flip=0.1", "--limit", "ssim=0.99")
+        layer, = document["layers"]
+        require(layer["layer"] == "indirect" and abs(layer["luminance_bias"]["ratio"] - 1.05) < 1e-6, "bias of the gain")
+        require(0.01 < layer["metrics"]["flip"] < 0.1, f"FLIP of the gain: {layer['metrics']['flip']}")
+        require(sum(layer["histograms"]["reference"]["counts"]) == SIZE * SIZE, "every luminance has a bin")
+        self.judge(1, "differs", ["limit"], "brighter.exr", "a.exr", "--limit", "flip=0.001")
+        self.judge(1, "differs", ["limit"], "brighter.exr", "a.exr", "--limit", "ssim=0.9999999")
+        self.judge(1, "differs", ["nothing_compared"], "a.exr", "b.exr", "--channels", "id", "--limit", "flip=1")
+        self.judge(1, "differs", ["nothing_compared"], "a.exr", "b.exr", "--limit", "z_rms=1")
+        ldr = self.judge(1, "differs", ["threshold"], "brighter.exr", "a.exr", "--flip-mode", "ldr", "--metric", "flip",
+                         "--metric", "mse")
+        require(ldr["layers"][0]["metrics"].keys() == {"flip"} and ldr["layers"][0]["ssim"] is None, "what was not asked for")
+        require(ldr["layers"][0]["flip"]["out_of_range"] > 0, "values above 1 are counted")
+
+    def perceived_maps(self):
+        done = self.run("brighter.exr", "a.exr", "--flip-map", "flip.exr", "--ssim-map", "ssim.png")
+        require(done.status == 1, f"{done}: expected status 1")
+        self.judge(0, "same", [], "flip.exr", "flip.exr")
+        require(struct.unpack(">II", (self.folder / "ssim.png").read_bytes()[16:24]) == (SIZE, SIZE), "size of the PNG")
+
     def bad_input(self):
         self.run("absent.exr", "a.exr").expect_error(3, r"E3001: absent\.exr")
         self.run("short.exr", "a.exr").expect_error(3, r"E3002: .*short\.exr")
         self.run("a.exr", "b.exr", "--limit", "relmse").expect_error(2, "E2002: --limit relmse")
         self.run("a.exr", "b.exr", "--limit", "msse=1").expect_error(2, "E2002: --limit msse: no such metric")
+        self.run("a.exr", "b.exr", "--z-test").expect_error(3, "E3003: b.exr: variance.R: --z-test needs")
         self.run("a.exr", "b.exr", "--channels", "flux").expect_error(2, "E2002: --channels flux.*id.I, indirect.B")
         self.run("a.exr", "b.exr", "--layer", "flux", "--false-color", "f2.png").expect_error(2, "E2002: --layer flux")
         require(not (self.folder / "f2.png").exists(), "a failed run left its picture")
@@ -128,11 +124,12 @@ class CompareTest:
     def metrics_are_listed(self):
         listed = {line.split()[0] for line in self.run("--list-metrics").expect_success().out.splitlines()}
         known = {name for kind in ("channel", "layer") for name in self.schema["$defs"][f"{kind}_metrics"]["properties"]}
-        require(listed == known == set(self.schema["properties"]["limits"]["propertyNames"]["enum"]), f"the schema knows others than {listed}")
+        limits = set(self.schema["properties"]["limits"]["propertyNames"]["enum"])
+        require(listed == known == limits, f"the schema knows others than {listed}")
 
     def checks(self):
         return [(check.__name__, check) for check in (self.same, self.gain, self.thresholds, self.limits, self.nan,
-                self.structure, self.pictures, self.bad_input, self.metrics_are_listed)]
+                self.structure, self.pictures, self.layers, self.perceived_maps, self.bad_input, self.metrics_are_listed)]
 
 
 def main():

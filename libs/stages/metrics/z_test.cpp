@@ -27,11 +27,18 @@ struct Difference {
   double score() const { return normal_score(value / std::sqrt(variance), degrees_of_freedom()); }
 };
 
-void add_uncertainty(Difference& d, const Uncertainty& u, std::size_t pixel, std::size_t channel) {
-  if (u.variance.empty()) return;
-  const auto variance = static_cast<double>(u.variance[pixel][channel]);
-  d.variance += variance;
-  if (u.passes) d.spread += square(variance) / (*u.passes - 1);
+Difference difference_at(const LayerPair& layer, const Uncertainty& test, const Uncertainty& reference,
+                         std::size_t pixel, std::size_t channel) {
+  Difference d;
+  d.value =
+      static_cast<double>(layer.test[pixel][channel]) - static_cast<double>(layer.reference[pixel][channel]);
+  for (const Uncertainty* u : {&test, &reference}) {
+    if (u->variance.empty()) continue;
+    const auto variance = static_cast<double>(u->variance[pixel][channel]);
+    d.variance += variance;
+    if (u->passes) d.spread += square(variance) / (*u->passes - 1);
+  }
+  return d;
 }
 
 // The |score| that one of `tests` independent tests exceeds with probability `significance`.
@@ -48,35 +55,22 @@ double chi_square_score(double chi_square_over_n, double n) {
   return (std::cbrt(chi_square_over_n) - (1 - variance)) / std::sqrt(variance);
 }
 
-// Differences and scores of one channel; NaN scores where there is nothing to test.
+// Differences and scores of one channel.
 class ChannelTest {
  public:
   ChannelTest(const LayerPair& layer, const std::vector<char>& left_out, const Uncertainty& test,
               const Uncertainty& reference, std::size_t channel)
-      : differences_(layer.reference.size()), scores_(layer.reference.size()), left_out_(left_out) {
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < scores_.size(); ++i) {
-      Difference& d = differences_[i];
-      d.value =
-          static_cast<double>(layer.test[i][channel]) - static_cast<double>(layer.reference[i][channel]);
-      add_uncertainty(d, test, i, channel);
-      add_uncertainty(d, reference, i, channel);
-      if (is_tested(i)) scores_[i] = d.score();
-    }
+      : width_(layer.width), height_(layer.height), left_out_(left_out) {
+    for (std::size_t i = 0; i < layer.reference.size(); ++i)
+      differences_.push_back(difference_at(layer, test, reference, i, channel));
+    score_pixels();
   }
 
-  bool is_tested(std::size_t i) const {
-    return !left_out_[i] && differences_[i].variance > 0;
-  }
-  bool is_exact(std::size_t i) const {
-    return !left_out_[i] && differences_[i].variance == 0;
-  }
-  double difference(std::size_t i) const {
-    return differences_[i].value;
-  }
-  double score(std::size_t i) const {
-    return scores_[i];
-  }
+  bool is_tested(std::size_t i) const { return !left_out_[i] && differences_[i].variance > 0; }
+  bool is_exact(std::size_t i) const { return !left_out_[i] && differences_[i].variance == 0; }
+  double difference(std::size_t i) const { return differences_[i].value; }
+  // By a variance that cannot be small by chance alone.
+  double cautious_score(std::size_t i) const { return cautious_scores_[i]; }
 
   ZTest::Channel summary() const {
     ZTest::Channel out;
@@ -101,9 +95,40 @@ class ChannelTest {
   }
 
  private:
-  std::vector<Difference> differences_;
-  std::vector<double> scores_;
+  void score_pixels() {
+    scores_.resize(differences_.size());
+    cautious_scores_.resize(differences_.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < scores_.size(); ++i) {
+      if (!is_tested(i)) continue;
+      Difference d = differences_[i];
+      scores_[i] = cautious_scores_[i] = d.score();
+      if (d.spread == 0) continue;
+      d.value *= std::sqrt(d.variance / std::max(d.variance, variance_around(i)));
+      cautious_scores_[i] = d.score();
+    }
+  }
+
+  // Mean over the tested pixels among the nine.
+  double variance_around(std::size_t i) const {
+    const int x = static_cast<int>(i) % width_, y = static_cast<int>(i) / width_;
+    double sum = 0;
+    int count = 0;
+    for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v)
+      for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
+        const std::size_t k =
+            static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
+        if (!is_tested(k)) continue;
+        sum += differences_[k].variance;
+        ++count;
+      }
+    return sum / count;
+  }
+
+  int width_, height_;
   const std::vector<char>& left_out_;
+  std::vector<Difference> differences_;
+  std::vector<double> scores_, cautious_scores_;  // 0 where there is nothing to test
 };
 
 void judge_values(const ChannelTest& test, std::size_t channel, std::size_t pixels, ZTest& out) {
@@ -115,9 +140,10 @@ void judge_values(const ChannelTest& test, std::size_t channel, std::size_t pixe
         out.first_exact_pixel = i;
       }
     } else if (test.is_tested(i)) {
-      if (std::abs(test.score(i)) > out.critical) ++out.exceeding;
-      if (std::abs(test.score(i)) <= std::abs(out.worst_score)) continue;
-      out.worst_score = test.score(i);
+      const double score = test.cautious_score(i);
+      if (std::abs(score) > out.critical) ++out.exceeding;
+      if (std::abs(score) <= std::abs(out.worst_score)) continue;
+      out.worst_score = score;
       out.worst_pixel = i;
       out.worst_channel = channel;
     }
@@ -126,11 +152,17 @@ void judge_values(const ChannelTest& test, std::size_t channel, std::size_t pixe
 
 }  // namespace
 
+std::optional<double> value_score(const LayerPair& layer, const Uncertainty& test,
+                                  const Uncertainty& reference, std::size_t pixel, std::size_t channel) {
+  const Difference d = difference_at(layer, test, reference, pixel, channel);
+  return d.variance > 0 ? std::optional(d.score()) : std::nullopt;
+}
+
 double normal_score(double t, double degrees_of_freedom) {
   using boost::math::complement;
   // Beyond it the chance of a value so large is not a number of double precision any more.
   constexpr double kSmallest = 1e-300;
-  if (!std::isfinite(degrees_of_freedom)) return t;
+  if (!std::isfinite(degrees_of_freedom) || !std::isfinite(t)) return t;
   const boost::math::students_t student(degrees_of_freedom);
   const double chance = std::max(kSmallest, boost::math::cdf(complement(student, std::abs(t))));
   return std::copysign(boost::math::quantile(complement(boost::math::normal(), chance)), t);

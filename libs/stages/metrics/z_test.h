@@ -49,6 +49,10 @@ constexpr double kRmsTolerance = 1.2;
 ZTest z_test(const LayerPair& layer, const std::vector<char>& left_out, const Uncertainty& test,
              const Uncertainty& reference, double significance);
 
+// (test - reference) / standard error of one value, as a normal deviate; nothing where it has no variance.
+std::optional<double> value_score(const LayerPair& layer, const Uncertainty& test,
+                                  const Uncertainty& reference, std::size_t pixel, std::size_t channel);
+
 // The normal deviate as unlikely as `t` of Student's distribution with so many degrees of freedom (> 0, may
 // be infinite).
 double normal_score(double t, double degrees_of_freedom);
