@@ -364,6 +364,11 @@ TEST_F(Moving, AsFastAsPromised) {
   for (int i = 1; i < 64; ++i)
     EXPECT_NEAR(dot(light.at(i).lights[0].forward, light.at(i - 1).lights[0].forward),
                 std::cos(0.25 * std::numbers::pi / 180), 1e-12);
+  const auto shorter = sequence("cornell", moving("light", 97));
+  expect_near(shorter.at(96).lights[0].forward, shorter.at(32).lights[0].forward, 1e-12);
+  GenerateOptions bright = moving("light", 2);
+  bright.scale = 3;
+  EXPECT_NEAR(sequence("cornell", bright).at(0).lights[0].intensity.x, 9 * 2, 1e-9);
   GenerateOptions large = moving("camera", 3);
   large.height = 100;
   large.scale = 3;
