@@ -24,8 +24,7 @@ std::array<std::uint32_t, 3> Points::hash(Stream stream, std::uint32_t item, std
 }
 
 Points::Lattice Points::lattice(Stream stream, std::uint32_t item, std::uint32_t pass) const {
-  const auto bits = hash(stream, item, pass);
-  return {static_cast<double>(count_), generator_, {bits[0] * 0x1p-32, bits[1] * 0x1p-32}};
+  return {static_cast<double>(count_), generator_, point(stream, item, pass)};
 }
 
 std::array<double, 2> Points::Lattice::operator[](int i) const {
@@ -33,8 +32,9 @@ std::array<double, 2> Points::Lattice::operator[](int i) const {
           fraction(i * static_cast<double>(generator_) * inverse_count_ + shift_[1])};
 }
 
-std::uint32_t Points::choice(std::uint32_t limit, std::uint32_t item, std::uint32_t pass) const {
-  return static_cast<std::uint32_t>(std::uint64_t{hash(Stream::set, item, pass)[0]} * limit >> 32);
+std::array<double, 2> Points::point(Stream stream, std::uint32_t item, std::uint32_t pass) const {
+  const auto bits = hash(stream, item, pass);
+  return {bits[0] * 0x1p-32, bits[1] * 0x1p-32};
 }
 
 }  // namespace vsgl::reference

@@ -6,7 +6,7 @@
 namespace vsgl::reference {
 
 // What a random number is for.
-enum class Stream : std::uint32_t { light = 1, brdf = 2, set = 3 };
+enum class Stream : std::uint32_t { pilot = 1, light = 2, brdf = 3 };
 
 // Randomised quasi-Monte Carlo [Cranley 1976]: a rank-1 lattice of the unit square, shifted at random by a
 // counter: (seed, stream, item, pass). Every point is uniform, and lattices of different counters are
@@ -31,8 +31,8 @@ class Points {
     std::array<double, 2> shift_;
   };
   Lattice lattice(Stream stream, std::uint32_t item, std::uint32_t pass) const;
-  // Uniform in 0..limit-1.
-  std::uint32_t choice(std::uint32_t limit, std::uint32_t item, std::uint32_t pass) const;
+  // One random point.
+  std::array<double, 2> point(Stream stream, std::uint32_t item, std::uint32_t pass) const;
 
  private:
   std::array<std::uint32_t, 3> hash(Stream stream, std::uint32_t item, std::uint32_t pass) const;

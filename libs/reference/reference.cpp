@@ -46,6 +46,15 @@ int pass_points(int samples) {
       std::bit_floor(static_cast<unsigned>(std::clamp(samples / kMinPasses, 1, kMaxPassPoints))));
 }
 
+std::vector<std::uint32_t> pixels_that_reflect(const GBuffer& gbuffer) {
+  std::vector<std::uint32_t> lit;
+  for (std::uint32_t i = 0; i < gbuffer.pixels.size(); ++i) {
+    const interop::Surface& pixel = gbuffer.pixels[i];
+    if (pixel.id != interop::NO_INSTANCE && !Receiver(pixel, gbuffer.camera).is_black()) lit.push_back(i);
+  }
+  return lit;
+}
+
 // The image in the making.
 class Job {
  public:
@@ -67,9 +76,9 @@ class Job {
   const ReferenceParams& params_;
   Report& report_;
   int points_, wanted_passes_;
+  std::vector<std::uint32_t> lit_;
   Estimator estimator_;
   Accumulator accumulator_;
-  std::vector<std::uint32_t> lit_;  // pixels that reflect light
   std::string key_;
   int passes_ = 0, saved_passes_ = 0;
   std::uint64_t rays_ = 0;
@@ -83,13 +92,10 @@ Job::Job(const scene::Scene& scene, const GBuffer& gbuffer, const ReferenceParam
       report_(report),
       points_(pass_points(params.samples)),
       wanted_passes_(std::max(kMinPasses, (params.samples + points_ - 1) / points_)),
-      estimator_(scene, strategy_named(params.strategy), params.seed, points_),
+      lit_(pixels_that_reflect(gbuffer)),
+      estimator_(scene, gbuffer, lit_, strategy_named(params.strategy), params.seed, points_),
       accumulator_(gbuffer.width, gbuffer.height),
       direct_(gbuffer.pixels.size()) {
-  for (std::uint32_t i = 0; i < gbuffer.pixels.size(); ++i) {
-    const interop::Surface& pixel = gbuffer.pixels[i];
-    if (pixel.id != interop::NO_INSTANCE && !Receiver(pixel, gbuffer.camera).is_black()) lit_.push_back(i);
-  }
   if (params.checkpoint.empty()) return;
   key_ = fingerprint(scene, gbuffer) + " " + params.strategy + " " + std::to_string(params.seed) + " " +
          std::to_string(points_);
@@ -108,12 +114,11 @@ std::uint64_t Job::for_each_pixel(Work work) const {
 
 void Job::one_pass() {
   const auto pass = static_cast<std::uint32_t>(passes_++);
-  estimator_.start_pass(pass, lit_.size());
-  rays_ += estimator_.pool_rays() + for_each_pixel([&](std::uint32_t pixel, const Receiver& x) {
-             std::uint64_t rays = 0;
-             accumulator_.add(pixel, estimator_.indirect(x, pixel, rays), passes_);
-             return rays;
-           });
+  rays_ += for_each_pixel([&](std::uint32_t pixel, const Receiver& x) {
+    std::uint64_t rays = 0;
+    accumulator_.add(pixel, estimator_.indirect(x, pixel, pass, rays), passes_);
+    return rays;
+  });
 }
 
 bool Job::is_done() const {

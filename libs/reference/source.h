@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "math/frame.h"
@@ -14,12 +15,14 @@ class Source {
 
   // Power that its paths carry, W, luminance.
   double power() const { return power_; }
-  // Share of all light paths that start here.
+  // All light paths start at points of the unit square; a source has those whose first coordinate is within a
+  // share of 0..1 that is its probability.
+  double first() const { return first_; }
   double probability() const { return probability_; }
-  void set_probability(double probability) { probability_ = probability; }
+  void set_share(double first, double probability);
 
-  // Start and unit direction of a path, from a point of the unit square: directions in proportion to the
-  // intensity, or for directional light places on a disk that holds the scene.
+  // Start and unit direction of a path, from a point of its share of the unit square: directions in
+  // proportion to the intensity, or for directional light places on a disk that holds the scene.
   struct Start {
     Vec3 origin, direction;
     double nearest;  // what is nearer casts no shadow, m
@@ -33,6 +36,8 @@ class Source {
     double density = 0;  // of light paths on that plane, 1/m^2; 0: no light comes here
   };
   Arrival arrival(Vec3 point) const;
+  // The point of the unit square whose path goes to `point`, where arrival() has a density.
+  std::array<double, 2> start_of_path_to(Vec3 point) const;
 
   bool is_directional() const { return light_.type == LightType::directional; }
   Vec3 position() const { return light_.position; }
@@ -47,7 +52,7 @@ class Source {
   double cone_full_ = 1;    // cosine from which it is full, or 1
   double rim_ = 0;          // integral of the fall-off over cosines, rising part
   double solid_angle_ = 1;  // integral of the fall-off, sr
-  double power_ = 0, probability_ = 1;
+  double power_ = 0, first_ = 0, probability_ = 1;
 };
 
 // The lights of a scene that emit anything, with probabilities in proportion to their power. Throws bad_light

@@ -67,6 +67,7 @@ Vec3 Specular::sample(double u1, double u2) const {
 }
 
 double Specular::density(Vec3 w) const {
+  if (dot(visible_from_ + w, normal_) <= 0) return 0;
   const HalfVector h = half_vector(visible_from_, w, normal_);
   return density_scale_ * ggx_d(alpha2_, h.sin2, h.cos2);
 }

@@ -93,15 +93,21 @@ inline interop::Surface visible_point(Vec3 position, Vec3 normal, const scene::M
   return s;
 }
 
-// One row of visible points.
-inline GBuffer row_of(const scene::Scene& scene, Vec3 camera, std::vector<interop::Surface> pixels) {
+// A row of visible points that are far enough from each other for the reference to find the light of each
+// apart.
+constexpr int kSpacing = 8;
+inline GBuffer row_of(const scene::Scene& scene, Vec3 camera, const std::vector<interop::Surface>& points) {
   GBuffer out;
-  out.width = static_cast<int>(pixels.size());
+  out.width = kSpacing * static_cast<int>(points.size());
   out.height = 1;
   out.anchor = scene.anchor;
   out.camera = camera;
   out.scene_radius = scene.radius;
-  out.pixels = std::move(pixels);
+  interop::Surface nothing{};
+  nothing.alpha = 1;
+  nothing.id = interop::NO_INSTANCE;
+  out.pixels.assign(kSpacing * points.size(), nothing);
+  for (std::size_t i = 0; i < points.size(); ++i) out.pixels[kSpacing * i] = points[i];
   return out;
 }
 
