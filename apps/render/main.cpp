@@ -9,10 +9,15 @@ namespace {
 
 using vsgl::render::Arguments;
 
-vsgl::scene::SceneSequence read_scene(vsgl::Tool& tool, const std::filesystem::path& path,
-                                      vsgl::Report& report) {
+vsgl::scene::SceneSequence read_scene(vsgl::Tool& tool, const Arguments& a, vsgl::Report& report) {
   const vsgl::PhaseTimer timer(report, "read scene");
+  const std::filesystem::path& path = a.scene.path;
   vsgl::scene::SceneSequence sequence(path);
+  if (a.last() >= sequence.frames()) {
+    throw vsgl::Error(vsgl::ErrorCode::out_of_range, path.string() + ": there is no frame " +
+                                                         std::to_string(a.last()) + "; the last one is " +
+                                                         std::to_string(sequence.frames() - 1));
+  }
   for (const auto& file : vsgl::scene::scene_files(path))
     if (file != path) tool.depends_on(file);
   return sequence;
@@ -39,8 +44,10 @@ void write_frame(const vsgl::RenderedFrame& frame, const vsgl::render::FramePath
 vsgl::Exit run(vsgl::Tool& tool, const Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
   const vsgl::Pipeline pipeline = resolve_pipeline(a, tool.common());
   check_outputs(a, pipeline, tool.common().overwrite);
-  const vsgl::scene::SceneSequence sequence = read_scene(tool, a.scene.path, report);
-  vsgl::gpu::Device device({.device = tool.common().device, .threads = tool.common().threads});
+  const vsgl::scene::SceneSequence sequence = read_scene(tool, a, report);
+  vsgl::gpu::Device device({.device = tool.common().device,
+                            .threads = tool.common().threads,
+                            .compute_only = pipeline.rsm_bake.compute_only()});
   report.count("device", device.info().name);
   vsgl::Renderer renderer(device, pipeline, a.direct);
   vsgl::render::FrameReport frames(report);

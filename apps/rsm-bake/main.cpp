@@ -26,9 +26,11 @@ vsgl::Exit run(vsgl::Tool& tool, const Arguments& a, vsgl::Report& report, vsgl:
   auto scene = a.scene.read(tool, report);
   if (const auto size = a.params.resolution)
     scene.camera = vsgl::with_resolution(scene.camera, size->width, size->height);
-  vsgl::gpu::Device device({.device = tool.common().device, .threads = tool.common().threads});
+  vsgl::gpu::Device device({.device = tool.common().device,
+                            .threads = tool.common().threads,
+                            .compute_only = a.params.compute_only()});
   report.count("device", device.info().name);
-  vsgl::Baker baker(scene, device, report);
+  vsgl::Baker baker(scene, device, report, a.params.visible);
   if (!a.gbuffer.empty()) {
     const vsgl::GBuffer gbuffer = baker.gbuffer();
     const vsgl::PhaseTimer timer(report, "write gbuffer");

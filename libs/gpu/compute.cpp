@@ -1,6 +1,7 @@
 #include "gpu/compute.h"
 
-#include <algorithm>
+#include <array>
+#include <chrono>
 #include <utility>
 
 #include "base/error.h"
@@ -137,82 +138,90 @@ ComputePipeline::ComputePipeline(Device& device, std::span<const std::uint32_t> 
 }
 
 struct Commands::Impl {
-  static constexpr std::uint32_t kQueriesPerPool = 256;
+  // Consecutive dispatches of one label, which are submitted and timed together.
+  struct Segment {
+    std::string label;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkQueryPool timestamps = VK_NULL_HANDLE;  // two: begin and end; none where the device's are of no use
+  };
 
   explicit Impl(Device& d) : device(d) {}
   ~Impl() { release(); }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  void begin();
+  // The command buffer of the last segment, which becomes a new one where the label is another.
+  VkCommandBuffer record(const std::string& label);
+  void begin(Segment& segment);
+  void end(const Segment& segment);
+  double run(const Segment& segment);  // seconds
   void release();
-  void timestamp();
-  std::vector<double> elapsed_s() const;
-  void bind(const ComputePipeline::Impl& pipeline, const std::vector<BufferRange>& buffers);
+  void bind(VkCommandBuffer commands, const ComputePipeline::Impl& pipeline,
+            const std::vector<BufferRange>& buffers);
   VkBufferView make_view(Binding binding, const BufferRange& range, std::size_t bytes);
 
   Device& device;
-  VkCommandBuffer commands = VK_NULL_HANDLE;
   std::vector<VkBufferView> views;
-  std::vector<VkQueryPool> query_pools;
-  std::vector<std::string> labels;  // a new one where the label of a dispatch differs from the last
-  std::uint32_t timestamps = 0;
+  std::vector<Segment> segments;
 };
 
-void Commands::Impl::begin() {
-  if (commands != VK_NULL_HANDLE) return;
+VkCommandBuffer Commands::Impl::record(const std::string& label) {
+  if (segments.empty() || segments.back().label != label) {
+    if (!segments.empty()) end(segments.back());
+    begin(segments.emplace_back(Segment{.label = label}));
+  }
+  return segments.back().commands;
+}
+
+void Commands::Impl::begin(Segment& segment) {
   auto allocate = vk_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
   allocate.commandPool = device.command_pool();
   allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   allocate.commandBufferCount = 1;
-  check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands), "vkAllocateCommandBuffers");
+  check(vkAllocateCommandBuffers(device.handle(), &allocate, &segment.commands), "vkAllocateCommandBuffers");
   auto info = vk_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  check(vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
+  check(vkBeginCommandBuffer(segment.commands, &info), "vkBeginCommandBuffer");
+  if (device.timestamp_period() == 0) return;
+  auto queries = vk_struct<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
+  queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  queries.queryCount = 2;
+  check(vkCreateQueryPool(device.handle(), &queries, nullptr, &segment.timestamps), "vkCreateQueryPool");
+  vkCmdResetQueryPool(segment.commands, segment.timestamps, 0, 2);
+  vkCmdWriteTimestamp(segment.commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, segment.timestamps, 0);
+}
+
+void Commands::Impl::end(const Segment& segment) {
+  full_barrier(segment.commands);
+  if (segment.timestamps != VK_NULL_HANDLE)
+    vkCmdWriteTimestamp(segment.commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, segment.timestamps, 1);
+  check(vkEndCommandBuffer(segment.commands), "vkEndCommandBuffer");
+}
+
+double Commands::Impl::run(const Segment& segment) {
+  const auto start = std::chrono::steady_clock::now();
+  auto info = vk_struct<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+  info.commandBufferCount = 1;
+  info.pCommandBuffers = &segment.commands;
+  check(vkQueueSubmit(device.queue(), 1, &info, VK_NULL_HANDLE), "vkQueueSubmit");
+  check(vkQueueWaitIdle(device.queue()), "vkQueueWaitIdle");
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  if (segment.timestamps == VK_NULL_HANDLE) return elapsed.count();
+  std::array<std::uint64_t, 2> ticks;
+  check(vkGetQueryPoolResults(device.handle(), segment.timestamps, 0, 2, sizeof ticks, ticks.data(),
+                              sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "vkGetQueryPoolResults");
+  return static_cast<double>(ticks[1] - ticks[0]) * device.timestamp_period() * 1e-9;
 }
 
 void Commands::Impl::release() {
   for (VkBufferView view : views) vkDestroyBufferView(device.handle(), view, nullptr);
-  for (VkQueryPool pool : query_pools) vkDestroyQueryPool(device.handle(), pool, nullptr);
-  if (commands != VK_NULL_HANDLE) vkFreeCommandBuffers(device.handle(), device.command_pool(), 1, &commands);
+  for (const Segment& segment : segments) {
+    vkDestroyQueryPool(device.handle(), segment.timestamps, nullptr);
+    vkFreeCommandBuffers(device.handle(), device.command_pool(), 1, &segment.commands);
+  }
   views.clear();
-  query_pools.clear();
-  labels.clear();
-  timestamps = 0;
-  commands = VK_NULL_HANDLE;
-}
-
-void Commands::Impl::timestamp() {
-  if (device.timestamp_period() == 0) return;
-  const std::uint32_t index = timestamps % kQueriesPerPool;
-  if (index == 0) {
-    auto info = vk_struct<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
-    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = kQueriesPerPool;
-    VkQueryPool pool = VK_NULL_HANDLE;
-    check(vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "vkCreateQueryPool");
-    query_pools.push_back(pool);
-    vkCmdResetQueryPool(commands, pool, 0, kQueriesPerPool);
-  }
-  vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, query_pools.back(), index);
-  ++timestamps;
-}
-
-// Seconds between one timestamp and the next.
-std::vector<double> Commands::Impl::elapsed_s() const {
-  std::vector<std::uint64_t> ticks(timestamps);
-  for (std::uint32_t first = 0; first < timestamps; first += kQueriesPerPool) {
-    const std::uint32_t count = std::min(timestamps - first, kQueriesPerPool);
-    check(vkGetQueryPoolResults(device.handle(), query_pools[first / kQueriesPerPool], 0, count,
-                                count * sizeof(std::uint64_t), ticks.data() + first, sizeof(std::uint64_t),
-                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-          "vkGetQueryPoolResults");
-  }
-  std::vector<double> seconds;
-  for (std::size_t i = 1; i < ticks.size(); ++i) {
-    seconds.push_back(static_cast<double>(ticks[i] - ticks[i - 1]) * device.timestamp_period() * 1e-9);
-  }
-  return seconds;
+  segments.clear();
 }
 
 VkBufferView Commands::Impl::make_view(Binding binding, const BufferRange& range, std::size_t bytes) {
@@ -228,7 +237,8 @@ VkBufferView Commands::Impl::make_view(Binding binding, const BufferRange& range
   return view;
 }
 
-void Commands::Impl::bind(const ComputePipeline::Impl& pipeline, const std::vector<BufferRange>& buffers) {
+void Commands::Impl::bind(VkCommandBuffer commands, const ComputePipeline::Impl& pipeline,
+                          const std::vector<BufferRange>& buffers) {
   const std::size_t count = pipeline.bindings.size();
   if (buffers.size() != count) {
     throw Error(ErrorCode::internal, "a shader with " + std::to_string(count) + " bindings got " +
@@ -288,34 +298,21 @@ void Commands::dispatch(const std::string& label, const ComputePipeline& pipelin
     throw Error(ErrorCode::internal, label + ": the shader takes " + std::to_string(shader.push_bytes) +
                                          " bytes of push constants, not " + std::to_string(push.size()));
   }
-  impl_->begin();
-  full_barrier(impl_->commands);
-  if (impl_->labels.empty() || impl_->labels.back() != label) {
-    impl_->labels.push_back(label);
-    impl_->timestamp();
-  }
-  vkCmdBindPipeline(impl_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, shader.pipeline);
-  impl_->bind(shader, buffers);
+  const VkCommandBuffer commands = impl_->record(label);
+  full_barrier(commands);
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shader.pipeline);
+  impl_->bind(commands, shader, buffers);
   if (!push.empty()) {
-    vkCmdPushConstants(impl_->commands, shader.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+    vkCmdPushConstants(commands, shader.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        static_cast<std::uint32_t>(push.size()), push.data());
   }
-  vkCmdDispatch(impl_->commands, groups[0], groups[1], groups[2]);
+  vkCmdDispatch(commands, groups[0], groups[1], groups[2]);
 }
 
 void Commands::submit(Report& report) {
-  if (impl_->commands == VK_NULL_HANDLE) return;
-  Device& device = impl_->device;
-  full_barrier(impl_->commands);
-  impl_->timestamp();
-  check(vkEndCommandBuffer(impl_->commands), "vkEndCommandBuffer");
-  auto info = vk_struct<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-  info.commandBufferCount = 1;
-  info.pCommandBuffers = &impl_->commands;
-  check(vkQueueSubmit(device.queue(), 1, &info, VK_NULL_HANDLE), "vkQueueSubmit");
-  check(vkQueueWaitIdle(device.queue()), "vkQueueWaitIdle");
-  const std::vector<double> seconds = impl_->elapsed_s();
-  for (std::size_t i = 0; i < seconds.size(); ++i) report.device_time(impl_->labels[i], seconds[i]);
+  if (impl_->segments.empty()) return;
+  impl_->end(impl_->segments.back());
+  for (const Impl::Segment& segment : impl_->segments) report.device_time(segment.label, impl_->run(segment));
   impl_->release();
 }
 

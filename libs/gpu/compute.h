@@ -44,8 +44,8 @@ struct BufferRange {
 };
 
 // A list of dispatches, recorded and then run by submit(), which waits. Each dispatch sees the writes of
-// those before it. A label names the phase whose device time submit() adds to the report. Group counts above
-// the device's limit throw device_limit.
+// those before it. A label names the phase whose device time submit() adds to the report: by timestamps, or
+// on the CPU by the clock. Group counts above the device's limit throw device_limit.
 class Commands {
  public:
   explicit Commands(Device& device);

@@ -296,7 +296,8 @@ void Device::create_device() {
       [](const VkQueueFamilyProperties& candidate) { return (candidate.queueFlags & kWanted) == kWanted; });
   if (family == families.end()) throw_lacking(info_, "a queue for both graphics and compute");
   family_ = static_cast<std::uint32_t>(family - families.begin());
-  if (family->timestampValidBits > 0) timestamp_period_ = static_cast<double>(limits_.timestampPeriod);
+  if (family->timestampValidBits > 0 && info_.type != "cpu")
+    timestamp_period_ = static_cast<double>(limits_.timestampPeriod);
 
   Features there, wanted;
   vkGetPhysicalDeviceFeatures2(physical_, &there.all);

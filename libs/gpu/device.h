@@ -44,7 +44,8 @@ class Device {
   VkPhysicalDevice physical() const { return physical_; }
   VkQueue queue() const { return queue_; }
   VkCommandPool command_pool() const { return pool_; }
-  // Nanoseconds per timestamp tick; 0: the queue has no timestamps.
+  // Nanoseconds per timestamp tick; 0: the queue has no timestamps, or none of use (lavapipe writes them
+  // before the work is done).
   double timestamp_period() const { return timestamp_period_; }
   VkDeviceSize max_allocation() const { return max_allocation_; }
   // Index of a memory type with all of `wanted`, or -1.

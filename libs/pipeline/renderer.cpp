@@ -4,6 +4,14 @@
 #include <utility>
 
 namespace vsgl {
+namespace {
+
+bool same_surfaces(const scene::Scene& a, const scene::Scene& b) {
+  return a.anchor == b.anchor && a.radius == b.radius && a.instances == b.instances &&
+         a.materials == b.materials && a.textures == b.textures;
+}
+
+}  // namespace
 
 Renderer::Renderer(gpu::Device& device, Pipeline pipeline, bool direct)
     : device_(device), pipeline_(std::move(pipeline)), direct_(direct) {}
@@ -15,22 +23,32 @@ void Renderer::run(RenderedFrame& frame, const char* tool, const std::function<v
   frame.stages.push_back({tool, elapsed.count(), std::exchange(report_, Report())});
 }
 
+// What the baker has made of surfaces that stay stays with it.
+void Renderer::take(scene::Scene scene) {
+  if (baker_ && same_surfaces(scene, scene_)) {
+    scene_.camera = scene.camera;
+    scene_.lights = std::move(scene.lights);
+  } else {
+    scene_ = std::move(scene);
+    if (baker_) baker_->update();
+  }
+  if (const auto size = pipeline_.rsm_bake.resolution)
+    scene_.camera = with_resolution(scene_.camera, size->width, size->height);
+  if (!baker_) baker_.emplace(scene_, device_, report_, pipeline_.rsm_bake.visible);
+}
+
 void Renderer::bake(RenderedFrame& frame) {
-  if (baker_)
-    baker_->update();
-  else
-    baker_.emplace(scene_, device_, report_);
   frame.gbuffer = baker_->gbuffer();
   frame.rsm = baker_->rsm(pipeline_.rsm_bake.rsm);
 }
 
 RenderedFrame Renderer::render(scene::Scene scene) {
-  scene_ = std::move(scene);
-  if (const auto size = pipeline_.rsm_bake.resolution)
-    scene_.camera = with_resolution(scene_.camera, size->width, size->height);
   RenderedFrame frame;
   const std::size_t built_before = device_.pipelines_built();
-  run(frame, "rsm-bake", [&] { bake(frame); });
+  run(frame, "rsm-bake", [&] {
+    take(std::move(scene));
+    bake(frame);
+  });
   if (lights_method(pipeline_.vsgl_gen.method).needs_pdf)
     run(frame, "pdf-build",
         [&] { frame.pdf = build_pdf(frame.rsm, &frame.gbuffer, pipeline_.pdf_build, device_, report_); });

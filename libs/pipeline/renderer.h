@@ -36,7 +36,8 @@ struct RenderedFrame {
 // was rendered before.
 class Renderer {
  public:
-  // `direct`: the image also holds the light sources' own light. The device must be able to draw.
+  // `direct`: the image also holds the light sources' own light. Unless rays are to find
+  // what is visible, the device must be able to draw.
   Renderer(gpu::Device& device, Pipeline pipeline, bool direct);
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
@@ -47,6 +48,7 @@ class Renderer {
  private:
   // Runs one stage and files its report with the frame.
   void run(RenderedFrame& frame, const char* tool, const std::function<void()>& work);
+  void take(scene::Scene scene);
   void bake(RenderedFrame& frame);
 
   gpu::Device& device_;

@@ -17,6 +17,8 @@ struct Texture {
   int width = 0, height = 0;
   bool srgb = false;
   std::vector<std::uint8_t> rgba;
+
+  bool operator==(const Texture&) const = default;
 };
 
 // Lambert diffuse + one microfacet lobe, from glTF's metallic-roughness model:
@@ -34,6 +36,8 @@ struct Material {
   double normal_scale = 1;
   int base_color_texture = -1, metallic_roughness_texture = -1,
       normal_texture = -1;  // index into Scene::textures
+
+  bool operator==(const Material&) const = default;
 };
 
 struct Vertex {
@@ -41,6 +45,8 @@ struct Vertex {
   std::array<float, 3> normal;    // unit
   std::array<float, 4> tangent;   // unit, w = handedness (+1 or -1); bitangent = w cross(normal, tangent)
   std::array<float, 2> uv;
+
+  bool operator==(const Vertex&) const = default;
 };
 
 // One mesh instance in world orientation (transforms composed in double, then subtracted from the anchor).
@@ -50,6 +56,8 @@ struct Instance {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t>
       indices;  // triangles; counter-clockwise fronts, mirrored transforms already flipped
+
+  bool operator==(const Instance&) const = default;
 };
 
 struct Camera {

@@ -39,7 +39,9 @@ PIPELINES = {
                  "shade": {"method": "vsgl-2014", "cbr": 0}},
     "exact visibility": {"ismap": {"method": "raytraced"}},
     "no shadows": {"ismap": None},
+    "drawn": {"rsm_bake": {"visible": "raster"}},
 }
+ON_BOTH = ["vsgl", "exact visibility", "drawn"]  # pipelines that run on both scenes; the others on the first
 KEPT = ["gbuffer.exr", "rsm.exr", "pdf.exr", "lights.exr", "ism.exr"]
 OWN_ATTRIBUTES = {"vsgl.tool", "vsgl.command", "vsgl.inputs"}
 
@@ -117,8 +119,6 @@ class RenderTest:
         stage("shade", "--gbuffer", at("gbuffer"), "--lights", at("lights"), *shadows, "--rsm", at("rsm"), "-o", at("image"))
 
     def require_same(self, one, other):
-        result = run([self.bin / "compare", one, other, "--json"], cwd=self.folder)
-        require(result.status == 0, f"{result}: the artifacts differ")
         (ours, pixels), (theirs, other_pixels) = read_exr(self.folder / one), read_exr(self.folder / other)
         require(len(pixels) > 500 and pixels == other_pixels, f"{one} and {other}: their pixels are not the same bytes")
         require(len(ours) == len(theirs) and ours, f"{one}: {len(ours)} parts, {other}: {len(theirs)}")
@@ -137,6 +137,7 @@ class RenderTest:
         require(made == sorted(path.name for path in (self.folder / kept).iterdir()), f"{kept} does not hold just {made}")
         for artifact in made:
             self.require_same(f"{kept}/{artifact}", f"{apart}/{artifact}")
+        self.tool("compare", f"{kept}/image.exr", f"{apart}/image.exr")
 
     def check_frames(self):
         self.tool("scene-gen", "cornell-glossy", "--resolution", "48x32", "--animate", "object", "--frames", "3", "-o", "moving.json")
@@ -219,7 +220,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         test = RenderTest(bin_dir, pathlib.Path(temporary))
         checks = [(f"{scene}, {name}: the tools' artifacts", lambda s=scene, n=name: test.check_same_as_tools(s, n))
-                  for scene in SCENES for name in PIPELINES]
+                  for name in PIPELINES for scene in SCENES if scene == "cornell-glossy" or name in ON_BOTH]
         checks += [("frames of a sequence", test.check_frames), ("the same bytes on two threads", test.check_threads),
                    ("every method", test.check_methods), ("defaults", test.check_defaults), ("schema", test.check_schema),
                    ("report", test.check_report)]

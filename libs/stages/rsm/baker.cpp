@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "stages/rsm/device_scene.h"
 #include "stages/rsm/rsm.h"
 #include "stages/rsm/views.h"
+#include "stages/rsm/visible.h"
 
 namespace vsgl {
 namespace {
@@ -51,25 +53,29 @@ void report_layer(const RsmLayer& layer, std::uint32_t clamped, Report& report) 
 // Buffers and images for views of one size.
 struct Frame {
   Frame(gpu::Device& device, std::uint32_t w, std::uint32_t h, std::uint32_t stride_, std::uint32_t rows_)
-      : stride(stride_),
+      : width(w),
+        height(h),
+        stride(stride_),
         rows(rows_),
-        target(device, w, h, {kVisibilityFormat}),
         visibility(device, std::size_t{w} * h * sizeof(interop::uint)),
         surface(device, std::size_t{stride_} * rows_ * sizeof(interop::Surface)) {}
 
-  std::uint32_t stride, rows;
-  gpu::RasterTarget target;
+  std::uint32_t width, height, stride, rows;
   gpu::Buffer visibility, surface;
+  std::optional<gpu::RasterTarget> target;  // made when something is drawn
 };
 
 }  // namespace
 
 struct Baker::Impl {
-  Impl(const scene::Scene& s, gpu::Device& d, Report& r);
+  Impl(const scene::Scene& s, gpu::Device& d, Report& r, VisibleBy v);
 
+  void report_scene();
   interop::Bake describe(const interop::View& view, const Frame& frame) const;
-  // Draws the view and appends the resolving of its surface points to the commands.
-  void draw(const interop::Bake& job, Frame& frame);
+  // Finds the triangles that the view sees and appends the resolving of its surface points to the commands.
+  void see(const interop::Bake& job, Frame& frame);
+  void draw(Frame& frame);
+  void trace(const interop::View& view, Frame& frame);
   std::vector<interop::Surface> download_surface(Frame& frame);
   RsmLayer layer(const LightView& light, const interop::View& view, Frame& frame,
                  const gpu::ComputePipeline& moments_pipeline, MomentPyramid& pyramid);
@@ -77,8 +83,9 @@ struct Baker::Impl {
   const scene::Scene& scene;
   gpu::Device& device;
   Report& report;
+  bool by_rays;
   DeviceScene geometry;
-  gpu::RasterPipeline visibility_pipeline;
+  std::optional<trace::Tracer> tracer;  // made when the first ray is traced
   gpu::ComputePipeline surface_pipeline;
   gpu::Commands commands;
   gpu::Buffer bake, clamped;
@@ -87,31 +94,30 @@ struct Baker::Impl {
 
 namespace {
 
-void report_size(const scene::Scene& scene, Report& report) {
-  report.count("triangles", scene.triangle_count());
-  report.count("instances", scene.instances.size());
-}
-
 DeviceScene upload(const scene::Scene& scene, gpu::Device& device, Report& report) {
   const PhaseTimer timer(report, "upload");
-  report_size(scene, report);
   return DeviceScene(scene, device);
 }
 
 }  // namespace
 
-Baker::Impl::Impl(const scene::Scene& s, gpu::Device& d, Report& r)
+Baker::Impl::Impl(const scene::Scene& s, gpu::Device& d, Report& r, VisibleBy v)
     : scene(s),
       device(d),
       report(r),
+      by_rays(v == VisibleBy::rays || (v == VisibleBy::automatic && d.info().type == "cpu")),
       geometry(upload(s, d, r)),
-      visibility_pipeline(d, visibility_vert_spv, visibility_frag_spv, {kVisibilityFormat},
-                          sizeof(interop::BakePush)),
       surface_pipeline(d, surface_comp_spv, {}, sizeof(interop::BakePush)),
       commands(d),
       bake(d, sizeof(interop::Bake)),
       clamped(d, sizeof(interop::uint)),
       push{address_of(bake)} {}
+
+void Baker::Impl::report_scene() {
+  report.count("triangles", geometry.triangle_count());
+  report.count("instances", scene.instances.size());
+  report.count("visible_by", by_rays ? "rays" : "raster");
+}
 
 interop::Bake Baker::Impl::describe(const interop::View& view, const Frame& frame) const {
   interop::Bake job{};
@@ -125,12 +131,36 @@ interop::Bake Baker::Impl::describe(const interop::View& view, const Frame& fram
   return job;
 }
 
-void Baker::Impl::draw(const interop::Bake& job, Frame& frame) {
-  const PhaseTimer timer(report, "rasterise");
+void Baker::Impl::see(const interop::Bake& job, Frame& frame) {
   bake.write(0, std::as_bytes(std::span(&job, 1)));
-  visibility_pipeline.draw(frame.target, 3 * geometry.triangle_count(), std::as_bytes(std::span(&push, 1)));
-  frame.target.read(0, frame.visibility);
+  if (by_rays)
+    trace(job.view, frame);
+  else
+    draw(frame);
   commands.dispatch("surface", surface_pipeline, {}, push, groups_over(frame.stride, frame.rows));
+}
+
+void Baker::Impl::draw(Frame& frame) {
+  const PhaseTimer timer(report, "rasterise");
+  const gpu::RasterPipeline pipeline(device, visibility_vert_spv, visibility_frag_spv, {kVisibilityFormat},
+                                     sizeof push);
+  if (!frame.target) frame.target.emplace(device, frame.width, frame.height, std::vector{kVisibilityFormat});
+  pipeline.draw(*frame.target, 3 * geometry.triangle_count(), std::as_bytes(std::span(&push, 1)));
+  frame.target->read(0, frame.visibility);
+}
+
+void Baker::Impl::trace(const interop::View& view, Frame& frame) {
+  if (geometry.triangle_count() == 0) {
+    frame.visibility.clear();
+    return;
+  }
+  if (!tracer) {
+    const PhaseTimer timer(report, "build hierarchy");
+    tracer.emplace(scene);
+  }
+  const PhaseTimer timer(report, "trace");
+  const std::vector<interop::uint> seen = trace_visible(scene, *tracer, view);
+  frame.visibility.write(0, std::as_bytes(std::span(seen)));
 }
 
 std::vector<interop::Surface> Baker::Impl::download_surface(Frame& frame) {
@@ -142,7 +172,7 @@ RsmLayer Baker::Impl::layer(const LightView& light, const interop::View& view, F
   interop::Bake job = describe(view, frame);
   job.moments_at = address_of(pyramid.finest());
   clamped.clear();
-  draw(job, frame);
+  see(job, frame);
   commands.dispatch("moments", moments_pipeline, {}, push, groups_over(frame.stride, frame.rows));
   pyramid.merge(commands);
   {
@@ -155,17 +185,18 @@ RsmLayer Baker::Impl::layer(const LightView& light, const interop::View& view, F
   return out;
 }
 
-Baker::Baker(const scene::Scene& scene, gpu::Device& device, Report& report)
-    : impl_(std::make_unique<Impl>(scene, device, report)) {}
+Baker::Baker(const scene::Scene& scene, gpu::Device& device, Report& report, VisibleBy visible)
+    : impl_(std::make_unique<Impl>(scene, device, report, visible)) {}
 Baker::~Baker() = default;
 
 void Baker::update() {
   const PhaseTimer timer(impl_->report, "upload");
-  report_size(impl_->scene, impl_->report);
   impl_->geometry.update(impl_->scene);
+  impl_->tracer.reset();
 }
 
 GBuffer Baker::gbuffer() {
+  impl_->report_scene();
   const interop::View view = camera_view(impl_->scene.camera, impl_->scene.radius);
   GBuffer out;
   out.width = impl_->scene.camera.width;
@@ -174,7 +205,7 @@ GBuffer Baker::gbuffer() {
   out.camera = impl_->scene.camera.position;
   out.scene_radius = impl_->scene.radius;
   Frame frame(impl_->device, view.width, view.height, view.width, view.height);
-  impl_->draw(impl_->describe(view, frame), frame);
+  impl_->see(impl_->describe(view, frame), frame);
   impl_->commands.submit(impl_->report);
   out.pixels = impl_->download_surface(frame);
   impl_->report.count("seen_pixels", std::count_if(out.pixels.begin(), out.pixels.end(), is_lit));
@@ -189,6 +220,7 @@ Rsm Baker::rsm(const RsmParams& params) {
                                              std::to_string(params.height) + ": must be 1 to " +
                                              std::to_string(kMaxRsmSize) + " a side");
   }
+  impl_->report_scene();
   const std::vector<LightView> lights = light_views(impl_->scene);
   Rsm out;
   out.size = next_power_of_two(std::max(params.width, params.height));

@@ -27,6 +27,16 @@ void add_options(CLI::App& app, BakeParams& params) {
          "what bent normals do to reflected light: consistent with a path tracer, or as in the papers")
       ->check(CLI::IsMember({"consistent", "paper"}))
       ->default_str("consistent");
+  const auto set_visible = [&params](const std::string& text) {
+    params.visible = text == "raster" ? VisibleBy::raster
+                     : text == "rays" ? VisibleBy::rays
+                                      : VisibleBy::automatic;
+  };
+  app.add_option_function<std::string>(
+         "--visible", set_visible,
+         "how visible triangles are found: raster, drawn; rays, traced; auto: rays on a CPU device")
+      ->check(CLI::IsMember({"auto", "raster", "rays"}))
+      ->default_str("auto");
 }
 
 }  // namespace vsgl

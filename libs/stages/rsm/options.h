@@ -15,6 +15,10 @@ namespace vsgl {
 struct BakeParams {
   RsmParams rsm;
   std::optional<ImageSize> resolution;  // of the G-buffer; none: the scene's
+  VisibleBy visible = VisibleBy::automatic;
+
+  // Whether a CPU device may be set up for compute alone, which runs wider (gpu::DeviceOptions).
+  bool compute_only() const { return visible != VisibleBy::raster; }
 };
 
 inline constexpr int kMaxResolution = 16384;  // pixels a side of a G-buffer

@@ -23,18 +23,28 @@ struct RsmParams {
   NormalConvention normals = NormalConvention::consistent;
 };
 
-// Rasterises a scene, which must outlive it, from camera and lights. The device must be able to draw. Throws
-// mesh_invalid when an index points nowhere, bad_light for a degenerate light or two of one name, memory,
-// device_limit.
+// How the triangle that each texel sees is found: by drawing, or by rays on the CPU.
+enum class VisibleBy {
+  automatic,  // rays where the device is the CPU, else drawing
+  raster,
+  rays,
+};
+
+// Bakes a scene, which must outlive it, from camera and lights. The device must be able to draw, unless rays
+// are traced. Throws mesh_invalid when an index points nowhere, bad_light for a degenerate light or two of
+// one name, memory, device_limit.
 class Baker {
  public:
-  Baker(const scene::Scene& scene, gpu::Device& device, Report& report);
-  Baker(scene::Scene&& scene, gpu::Device& device, Report& report) = delete;
+  Baker(const scene::Scene& scene, gpu::Device& device, Report& report,
+        VisibleBy visible = VisibleBy::raster);
+  Baker(scene::Scene&& scene, gpu::Device& device, Report& report,
+        VisibleBy visible = VisibleBy::raster) = delete;
   ~Baker();
   Baker(const Baker&) = delete;
   Baker& operator=(const Baker&) = delete;
 
-  // Takes notice that the scene has changed: uploads the parts of it that differ.
+  // Takes notice that the scene's meshes, materials or textures have changed: uploads those that differ.
+  // Camera and lights are read whenever they are needed.
   void update();
 
   // What the scene's camera sees, one point per pixel, at the camera's resolution.

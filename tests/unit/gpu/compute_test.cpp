@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <chrono>
 #include <numeric>
 
 #include "base/error.h"
@@ -204,6 +205,56 @@ TEST(Commands, SameBytesOnAnyThreadCountAndWidth) {
   }
   EXPECT_EQ(outputs[0], outputs[1]);
   EXPECT_EQ(outputs[0], outputs[2]);
+}
+
+TEST(ComputePipeline, IsBuiltOncePerShaderAndConstants) {
+  Device device({});
+  const ComputePipeline first = affine(device, 1);
+  EXPECT_EQ(device.pipelines_built(), 1u);
+  const ComputePipeline same = affine(device, 1);
+  EXPECT_EQ(device.pipelines_built(), 1u);
+  const ComputePipeline other = affine(device, 2);
+  EXPECT_EQ(device.pipelines_built(), 2u);
+  const ComputePipeline without(device, affine_comp_spv, {Binding::storage, Binding::storage},
+                                sizeof(AffinePush));
+  EXPECT_EQ(device.pipelines_built(), 3u);
+
+  Buffer values = Buffer::from(device, ramp(4)), results(device, 16);
+  const auto run = [&](const ComputePipeline& pipeline) {
+    Report report;
+    Commands commands(device);
+    commands.dispatch("affine", pipeline, {values, results}, AffinePush{1, 4}, {1, 1, 1});
+    commands.submit(report);
+    return results.download<float>(4);
+  };
+  EXPECT_EQ(run(same), (std::vector<float>{1, 2, 3, 4}));
+  EXPECT_EQ(run(other), (std::vector<float>{2, 3, 4, 5}));
+  EXPECT_EQ(run(without), ramp(4));
+}
+
+TEST(Commands, TimeEachLabelOnTheDevice) {
+  Device device({});
+  const ComputePipeline pipeline = affine(device, 0);
+  constexpr std::uint32_t kCount = 1 << 21;
+  Buffer values = Buffer::from(device, ramp(kCount)), results(device, kCount * sizeof(float));
+  Report report;
+  const auto start = std::chrono::steady_clock::now();
+  Commands commands(device);
+  for (const char* label : {"small", "large"}) {
+    const std::uint32_t count = label[0] == 's' ? 64 : kCount;
+    for (int k = 0; k < 20; ++k)
+      commands.dispatch(label, pipeline, {values, results}, AffinePush{1, count},
+                        {groups_for(count, 64), 1, 1});
+  }
+  commands.submit(report);
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto phases = report.to_json()["phases"];
+  ASSERT_EQ(phases.size(), 2u);
+  const double small = phases[0]["device_s"], large = phases[1]["device_s"];
+  EXPECT_GT(small, 0);
+  EXPECT_GT(large, 5 * small);
+  EXPECT_GT(small + large, elapsed / 2);  // waiting is most of it
+  EXPECT_LE(small + large, elapsed);
 }
 
 }  // namespace

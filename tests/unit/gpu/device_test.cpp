@@ -17,7 +17,7 @@ TEST(Device, AutoTakesTheCpu) {
   EXPECT_NE(device.info().name.find("llvmpipe"), std::string::npos);
   EXPECT_GT(device.info().vector_bits, 0);
   EXPECT_GT(device.info().subgroup_size, 0u);
-  EXPECT_GT(device.timestamp_period(), 0);
+  EXPECT_EQ(device.timestamp_period(), 0);
 }
 
 TEST(Device, PartOfANameChooses) {

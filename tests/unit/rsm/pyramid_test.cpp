@@ -130,6 +130,42 @@ TEST(Input, IndicesThatPointNowhereAreRefused) {
   expect_error(ErrorCode::mesh_invalid, {"texture 0"}, [&] { bake(scene, 16); });
 }
 
+// Whatever was baked before, a changed scene gives what a baker of its own makes of it.
+TEST(Baker, FollowsEveryKindOfChange) {
+  scene::Scene scene = test::scene_of(
+      {test::tilted_plane(20), test::quad({-1, -1, -1}, {1, 0, 0}, {0, 1, 0})}, {test::spot(30, 40)});
+  scene.textures = {test::stripes(8, 8, {{255, 0, 0, 255}, {0, 255, 0, 255}})};
+  scene.materials[0].base_color_texture = 0;
+  for (const VisibleBy visible : {VisibleBy::raster, VisibleBy::rays}) {
+    scene::Scene changing = scene;
+    Report report;
+    Baker baker(changing, test::device(), report, visible);
+    const auto expect_followed = [&](const char* what) {
+      SCOPED_TRACE(what);
+      baker.update();
+      const Rsm followed = baker.rsm({32, 32});
+      const Rsm fresh = Baker(changing, test::device(), report, visible).rsm({32, 32});
+      ASSERT_EQ(followed.layers[0].surface.size(), fresh.layers[0].surface.size());
+      EXPECT_EQ(0, std::memcmp(followed.layers[0].surface.data(), fresh.layers[0].surface.data(),
+                               fresh.layers[0].surface.size() * sizeof(interop::Surface)));
+    };
+    expect_followed("nothing");
+    for (scene::Vertex& vertex : changing.instances[1].vertices) vertex.position[0] += 0.3f;
+    expect_followed("vertices");
+    changing.instances[1].indices = {0, 1, 2};
+    expect_followed("indices");
+    changing.materials[0].base_color = {0.1, 0.2, 0.3};
+    expect_followed("materials");
+    changing.textures[0].rgba[0] = 0;
+    expect_followed("texels");
+    changing.textures.push_back(test::stripes(4, 4, {{0, 0, 255, 255}}));
+    changing.materials[0].base_color_texture = 1;
+    expect_followed("another texture");
+    changing.lights[0].position.x = 0.1;
+    expect_followed("lights");
+  }
+}
+
 TEST(Report, SaysWhatWasBakedAndSkipped) {
   Report report;
   bake_rsm(test::scene_of(test::room(1), {test::spot(30, 30)}), {32, 32, NormalConvention::consistent},
