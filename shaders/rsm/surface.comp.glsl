@@ -56,8 +56,19 @@ Hit intersect(View view, vec2 texel_centre, Vertex a, Vertex b, Vertex c) {
   return hit;
 }
 
-// Vertex normal bent by the normal map, on the side of `facing`.
-vec3 shading_normal(Hit hit, Material material, vec3 facing) {
+// Relative, of a unit normal rounded to 8-bit texels: it must not pass for a spread.
+const float LENGTH_ERROR = 1.0 / 255.0;
+
+// A mean normal, and the variance of the normals that it stands for, per axis.
+struct MeanNormal {
+  vec3 direction;
+  float variance;
+};
+
+// Vertex normal bent by the normal map, on the side of `facing`. [Toksvig 2005] The shorter the mean m of a map's unit normals, the
+// wider they spread: their variance is (1 - |m|) / |m|, times the square of the map's scale.
+MeanNormal shading_normal(Hit hit, Material material, vec3 facing) {
+  float variance = 0.0;
   vec3 n = dot(hit.normal, hit.normal) > 1e-12 ? normalize(hit.normal) : hit.geometric_normal;
   float side = dot(n, facing) < 0.0 ? -1.0 : 1.0;
   vec3 t = hit.tangent.xyz - dot(hit.tangent.xyz, n) * n;
@@ -65,11 +76,12 @@ vec3 shading_normal(Hit hit, Material material, vec3 facing) {
     t = normalize(t);
     vec3 b = (hit.tangent.w < 0.0 ? -1.0 : 1.0) * cross(n, t);
     vec3 m = 2.0 * texture_trilinear(material.normal_texture, hit.uv, hit.du, hit.dv).xyz - 1.0;
+    variance = max(1.0 / max(length(m), 1e-3) - 1.0 - LENGTH_ERROR, 0.0) * material.normal_scale * material.normal_scale;
     m.xy *= material.normal_scale;
     vec3 bent = m.x * t + m.y * b + m.z * n;
     if (dot(bent, bent) > 1e-12) n = normalize(bent);
   }
-  return side * n;
+  return MeanNormal(side * n, variance);
 }
 
 void set_reflectance(inout Surface s, Hit hit, Material material) {
@@ -91,6 +103,13 @@ void set_reflectance(inout Surface s, Hit hit, Material material) {
   s.alpha = glossy ? max(alpha, ALPHA_MIN) : 1.0;
 }
 
+// What a surface of many normals reflects [Toksvig 2005]. Lambert's cosine becomes the mean of n . w: the mean normal's length 1 / (1 + v)
+// remains. The slopes' variance adds to that of the microfacets, which is alpha^2 / 2 per axis (exactly for Beckmann).
+void spread_normals(inout Surface s, float variance) {
+  s.diffuse /= 1.0 + variance;
+  if (s.ndf != NDF_NONE) s.alpha = min(sqrt(s.alpha * s.alpha + 2.0 * variance), 1.0);
+}
+
 Surface resolve(View view, uvec2 texel, uint triangle_index) {
   Triangle triangle = scene_triangle(triangle_index);
   Hit hit = intersect(view, vec2(texel) + 0.5, scene_vertex(triangle.a), scene_vertex(triangle.b),
@@ -100,10 +119,12 @@ Surface resolve(View view, uvec2 texel, uint triangle_index) {
   Surface s;
   s.position = hit.position;
   s.normal = dot(hit.geometric_normal, from_view) > 0.0 ? -hit.geometric_normal : hit.geometric_normal;
-  s.shading_normal = shading_normal(hit, material, s.normal);
+  MeanNormal shading = shading_normal(hit, material, s.normal);
+  s.shading_normal = shading.direction;
   s.depth = view.kind == VIEW_DIRECTIONAL ? dot(hit.position - view.origin, view.forward) : length(from_view);
   s.id = triangle.instance;
   set_reflectance(s, hit, material);
+  spread_normals(s, shading.variance);
   return s;
 }
 

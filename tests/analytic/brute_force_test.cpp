@@ -142,8 +142,8 @@ TEST(BruteForce, ConsistentBiasReduction) {
       ShadingParams params;
       params.method = method;
       Report report;
-      const Indirect image =
-          shade(scene.gbuffer, lights_per_texel(scene.rsm), nullptr, params, device(), report);
+      const Lights texels = generate_lights(scene.rsm, nullptr, {.method = "texels"}, device(), report);
+      const Indirect image = shade(scene.gbuffer, texels, nullptr, params, device(), report);
       const Agreement found = agreement(image, scene.truth);
       double sum = 0;
       for (std::size_t i = 0; i < image.cancellation.size(); ++i)

@@ -2,7 +2,8 @@
 
 #include <omp.h>
 
-#include "math/lobe.h"
+#include <algorithm>
+
 #include "math/microfacet.h"
 
 namespace vsgl::test {
@@ -11,9 +12,9 @@ namespace {
 Vec3 widen(const interop::vec3& v) {
   return {v.x, v.y, v.z};
 }
-interop::vec3 narrow(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+
+// Cosine below which two close points count as lying in one plane, where neither lights the other.
+constexpr double coplanar = 0.01;
 
 // A lit texel as a point light.
 struct Vpl {
@@ -50,7 +51,6 @@ VplSum vpl_sum(const GBuffer& gbuffer, const Rsm& rsm) {
   VplSum out;
   out.diffuse.resize(count);
   out.specular.resize(count);
-  std::vector<char> far(count, 1);
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t i = 0; i < count; ++i) {
     const interop::Surface& pixel = gbuffer.pixels[i];
@@ -60,7 +60,6 @@ VplSum vpl_sum(const GBuffer& gbuffer, const Rsm& rsm) {
     for (const Vpl& light : lights) {
       const Vec3 v = light.position - p;
       const double d2 = dot(v, v);
-      if (d2 <= light.footprint * light.footprint) far[i] = 0;
       if (d2 == 0) continue;
       const Vec3 u = v / std::sqrt(d2);
       if (dot(u, widen(pixel.normal)) <= 0) continue;
@@ -76,49 +75,28 @@ VplSum vpl_sum(const GBuffer& gbuffer, const Rsm& rsm) {
             widen(pixel.specular) * intensity * (specular_brdf_cos(pixel.ndf, pixel.alpha, n, view, u) / d2);
     }
   }
-  out.compared.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (gbuffer.pixels[i].id == interop::NO_INSTANCE) continue;
-    out.compared[i] = far[i];
-    out.left_out += !far[i];
-  }
+  out.compared = far_from_texels(gbuffer, rsm);
+  for (std::size_t i = 0; i < count; ++i)
+    out.left_out += !out.compared[i] && gbuffer.pixels[i].id != interop::NO_INSTANCE;
   return out;
 }
 
-Lights lights_per_texel(const Rsm& rsm) {
-  Lights out;
-  out.method = "texels";
-  out.anchor = rsm.anchor;
-  out.scene_radius = rsm.scene_radius;
-  for (std::size_t layer = 0; layer < rsm.layers.size(); ++layer) {
-    const RsmLayer& view = rsm.layers[layer];
-    for (std::size_t j = 0; j < view.surface.size(); ++j) {
-      const interop::Surface& s = view.surface[j];
-      const interop::Moments& m = view.pyramid[j];
-      if (!(m.weight > 0)) continue;
-      const SgLobe diffuse = lobe_decode({widen(m.diffuse_mean), m.diffuse_deficit});
-      const SgLobe specular = lobe_decode({widen(m.specular_mean), m.specular_deficit});
-      interop::Light light;
-      light.position = light.origin = s.position;
-      light.variance = std::max(m.spread / 2, 1e-12F);
-      light.power_diffuse = m.power_diffuse;
-      light.diffuse_axis = narrow(diffuse.axis);
-      light.diffuse_sharpness = static_cast<float>(diffuse.sharpness);
-      light.power_specular = m.power_specular;
-      light.specular_axis = s.ndf == interop::NDF_NONE ? s.normal : narrow(specular.axis);
-      light.specular_sharpness = s.ndf == interop::NDF_NONE ? 0 : static_cast<float>(specular.sharpness);
-      light.alpha = s.alpha;
-      light.ndf = s.ndf;
-      light.normal = s.normal;
-      light.shading_normal = s.shading_normal;
-      light.incident = narrow(towards_source(view.light, widen(s.position)));
-      light.texel = static_cast<std::uint32_t>(j);
-      light.layer = static_cast<std::uint32_t>(layer);
-      out.lights.push_back(light);
-    }
+std::vector<bool> far_from_texels(const GBuffer& gbuffer, const Rsm& rsm, bool lobes) {
+  const std::vector<Vpl> lights = vpls(rsm);
+  std::vector<char> far(gbuffer.pixels.size());
+#pragma omp parallel for schedule(dynamic, 64)
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    const interop::Surface& pixel = gbuffer.pixels[i];
+    if (pixel.id == interop::NO_INSTANCE) continue;
+    far[i] = std::none_of(lights.begin(), lights.end(), [&](const Vpl& light) {
+      const Vec3 v = light.position - widen(pixel.position);
+      const double d = length(v), facing = std::min(dot(v, widen(pixel.normal)), -dot(v, light.normal));
+      const double width =
+          lobes ? std::min(static_cast<double>(pixel.alpha), light.alpha) : 1;  // at distance 1
+      return d * width <= light.footprint && facing >= coplanar * d;
+    });
   }
-  out.requested = static_cast<int>(out.lights.size());
-  return out;
+  return {far.begin(), far.end()};
 }
 
 double reflected_power(const Rsm& rsm) {

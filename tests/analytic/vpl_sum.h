@@ -10,16 +10,16 @@ namespace vsgl::test {
 // methods without shadow maps approximate [Keller 1997].
 struct VplSum {
   std::vector<Vec3> diffuse, specular;  // per pixel, W/(m^2 sr)
-  // Pixels that see a surface and lie farther from every lit texel than that texel's footprint: there the sum
-  // is finite and smooth.
+  // Pixels that see a surface and are far_from_texels(): there the sum is finite and smooth.
   std::vector<bool> compared;
   std::size_t left_out = 0;  // pixels that see a surface and are not compared
 };
 
 VplSum vpl_sum(const GBuffer& gbuffer, const Rsm& rsm);
 
-// Every lit texel as a light of its own: footprint and lobes of level 0 of the moment pyramid.
-Lights lights_per_texel(const Rsm& rsm);
+// Whether each pixel lies farther from every lit texel that it faces than that texel's footprint; false for
+// background. `lobes`: so far that specular lobes of both, too, are wider than the footprint.
+std::vector<bool> far_from_texels(const GBuffer& gbuffer, const Rsm& rsm, bool lobes = false);
 
 // Sum of the reflected powers of all texels, and of all lights, W, luminance.
 double reflected_power(const Rsm& rsm);
