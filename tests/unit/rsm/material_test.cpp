@@ -165,6 +165,22 @@ TEST(NormalMap, BendsTowardsTheTangentAndBitangent) {
   EXPECT_NEAR(static_cast<double>(s.shading_normal.y), -0.5, 0.01);
 }
 
+// Texels far wider than the map's, whose normals lean 30 degrees to one side and the other: their mean
+// reflects what they reflect together, and their lobes together are a wider one.
+TEST(NormalMap, NormalsThatAreFilteredAwayStillCount) {
+  scene::Scene scene = bent_plane(0, 20);
+  scene.textures[0] = test::stripes(2, 2, {{191, 128, 238, 255}, {64, 128, 238, 255}});
+  for (scene::Vertex& v : scene.instances[0].vertices) v.uv = {10000 * v.uv[0], 10000 * v.uv[1]};
+  const Rsm rsm = bake(scene, 64);
+  const interop::Surface& s = rsm.layers[0].surface[kMiddle];
+  const interop::Moments& m = rsm.layers[0].pyramid[kMiddle];
+  const double cosine = std::cos(std::numbers::pi / 6);
+  EXPECT_NEAR(length(to_double(s.shading_normal) - to_double(s.normal)), 0, 0.01);
+  EXPECT_NEAR(static_cast<double>(m.power_diffuse.x / m.flux.x), 0.5 * cosine, 0.005);
+  EXPECT_NEAR(static_cast<double>(m.power_specular.x / m.flux.x), 0.25, 0.002);
+  EXPECT_NEAR(static_cast<double>(s.alpha), std::sqrt(0.2 * 0.2 + 2 * (1 / cosine - 1)), 0.01);
+}
+
 TEST(NormalMap, ConsistentPowerCarriesTheRatioOfCosines) {
   const Rsm rsm = bake(bent_plane(30, 20), 64);
   const interop::Surface& s = rsm.layers[0].surface[kMiddle];
