@@ -11,6 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kNotable = 0.1;  // a rise of relmse, in parts of the whole error's, that is warned of
+
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> out;
   std::size_t start = 0;
@@ -84,7 +86,7 @@ void summarise(Report& report, const metrics::Decomposition& result, bool explai
 void warn(Report& report, const metrics::Decomposition& result, bool explained) {
   double relmse = result.relmse;
   for (const metrics::Step& step : result.steps) {
-    if (step.relmse_after > relmse)
+    if (step.relmse_after > relmse + kNotable * result.relmse)
       report.warn("without its error of \"" + step.cause +
                   "\" the image is farther from the reference: errors cancel, or the image is another one's");
     relmse = step.relmse_after;
@@ -122,11 +124,15 @@ void declare_decomposition(Tool& tool, DecompositionArguments& a) {
           "CAUSE=FILE: image in which one more cause of A's error is removed, in the order of the chain "
           "from A to B; several files, parted by commas, are averaged")
       ->allow_extra_args(false);
+  tool.app()
+      .add_option("--step-weights", a.weights,
+                  "what a pixel's squares count: as they are, or relative to the reference's, as in relmse")
+      ->check(CLI::IsMember({"absolute", "relative"}));
   tool.app().add_option("--remainder", a.remainder, "name of the step from the last of them to B");
 }
 
 bool is_decomposition(Tool& tool, const DecompositionArguments& a) {
-  if (a.steps.empty()) refuse(tool, {"--remainder"}, "--step");
+  if (a.steps.empty()) refuse(tool, {"--remainder", "--step-weights"}, "--step");
   return !a.steps.empty();
 }
 
@@ -134,7 +140,8 @@ Exit decompose_error(Tool& tool, const Inputs& inputs, const DecompositionArgume
                      const std::string& layer_name, const std::vector<std::string>& limits, Report& report,
                      OutputSet& outputs) {
   allow_only(tool, "--step",
-             {"test", "reference", "--output", "--html", "--limit", "--layer", "--step", "--remainder"});
+             {"test", "reference", "--output", "--html", "--limit", "--layer", "--step", "--remainder",
+              "--step-weights"});
   const std::optional<double> limit = limit_of(limits);
   const std::string layer = layer_name.empty() ? "indirect" : layer_name;
   const metrics::Frame test = metrics::read_frame(inputs.test, layer);
@@ -144,11 +151,12 @@ Exit decompose_error(Tool& tool, const Inputs& inputs, const DecompositionArgume
     chain.push_back(read_step(step, layer));
     check_name(chain, a.remainder);
   }
-  const metrics::Decomposition result = metrics::decompose(test, chain, reference, a.remainder);
+  const auto weights = a.weights == "relative" ? metrics::Weights::relative : metrics::Weights::absolute;
+  const metrics::Decomposition result = metrics::decompose(test, chain, reference, a.remainder, weights);
   const bool explained = metrics::is_explained(result, limit);
   warn(report, result, explained);
   const auto json = metrics::to_json(
-      result, {inputs.test.filename().string(), inputs.reference.filename().string(), layer}, limit);
+      result, {inputs.test.filename().string(), inputs.reference.filename().string(), layer, weights}, limit);
   if (tool.common().json) {
     report.count("comparison", json);
   } else {

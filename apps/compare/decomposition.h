@@ -12,7 +12,7 @@ namespace vsgl::app {
 
 struct DecompositionArguments {
   std::vector<std::string> steps;  // CAUSE=FILE[,FILE...]
-  std::string remainder = "discretisation";
+  std::string remainder = "discretisation", weights = "absolute";
 };
 
 void declare_decomposition(Tool& tool, DecompositionArguments& arguments);

@@ -129,6 +129,9 @@ class ModesTest:
         shares = {step["cause"]: step["share"] for step in document["steps"]}
         require(abs(shares["clustering"] - 0.8) < 1e-6 and abs(shares["leaks"] - 0.2) < 1e-6, f"shares {shares}")
         require(document["remainder"]["cause"] == "discretisation" and document["remainder"]["share"] == 0, "nothing remains")
+        relative = self.judge("decomposition", 0, "explained", *steps, "all.exr", "truth.exr", "--step-weights", "relative")
+        require(relative["weights"] == "relative", "the weights are named")
+        require(abs(relative["total"]["rms"] ** 2 / relative["total"]["relmse"] - 1) < 1e-3, f"the whole is relmse: {relative['total']}")
         left = self.judge("decomposition", 1, "unexplained", "all.exr", "truth.exr", "--step", "x=rest.exr", "--remainder", "left")
         require(left["remainder"]["cause"] == "left" and left["remainder"]["power"] > 0, "the rest is left")
         self.judge("decomposition", 0, "explained", "all.exr", "truth.exr", "--step", "x=rest.exr", "--limit", "remainder=0.1")
@@ -157,6 +160,7 @@ class ModesTest:
         run_with("--step", "x=a.exr", "--step", "x=a.exr").expect_error(2, "E2002: --step x: is given twice")
         run_with("--step", "left=a.exr", "--remainder", "left").expect_error(2, "E2002: --step left: .*--remainder")
         run_with("--remainder", "left").expect_error(2, "E2005: --remainder: needs --step")
+        run_with("--step-weights", "relative").expect_error(2, "E2005: --step-weights: needs --step")
         run_with("--step", "x=a.exr", "--limit", "rmse=1").expect_error(2, "E2002: --limit rmse=1")
         run_with("--step", "x=a.exr", "--limit", "remainder=-1").expect_error(2, "E2003: --limit remainder=-1")
         run_with("--step", "x=a.exr", "--threshold", "1").expect_error(2, "E2005: --threshold: does not go with --step")

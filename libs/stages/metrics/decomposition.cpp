@@ -86,11 +86,12 @@ enum StepSum { kMean, kSquares, kProducts, kStepSums };
 
 class Chain {
  public:
-  Chain(const Frame& test, const std::vector<CauseRemoved>& chain, const Frame& reference)
-      : reference_(reference), blocks_(Blocks(reference.width, reference.height)) {
+  Chain(const Frame& test, const std::vector<CauseRemoved>& chain, const Frame& reference, Weights weights)
+      : reference_(reference), weights_(weights), blocks_(Blocks(reference.width, reference.height)) {
     images_.push_back(image_of(test));
     for (const CauseRemoved& removed : chain) images_.push_back(mean_of(removed.images));
     images_.push_back(reference_image(reference));
+    set_epsilon();
     sums_.assign(blocks_.count(), Sums(kWholeSums + kStepSums * steps()));
     for (std::size_t i = 0; i < reference.colours.size(); ++i) add(i);
     total_ = total(sums_);
@@ -121,27 +122,40 @@ class Chain {
     return sums[denominator] == 0 ? 0 : sums[numerator] / sums[denominator];
   }
   double relative_rms(double squares) const {
-    const double mean = total_[kReferenceMean] / total_[kPixels];
-    return std::sqrt(std::max(0.0, squares / total_[kPixels])) / mean;
+    const double unit = weights_ == Weights::relative ? 1 : total_[kReferenceMean] / total_[kPixels];
+    return std::sqrt(std::max(0.0, squares / total_[kPixels])) / unit;
+  }
+
+  // As in relmse, of the luminance.
+  void set_epsilon() {
+    double sum = 0;
+    for (const Vec3 colour : images_.back().colours) sum += std::abs(luminance(colour));
+    const double floor = 0.01 * sum / static_cast<double>(images_.back().colours.size());
+    epsilon_ = floor * floor;
+  }
+  double weight(Vec3 reference) const {
+    if (weights_ == Weights::absolute || epsilon_ == 0) return 1;
+    return 1 / (product(reference, reference) + epsilon_);
   }
 
   void add(std::size_t pixel) {
     Sums& sums = sums_[blocks_.of(pixel)];
     const Image &first = images_.front(), &last = images_.back();
     const Vec3 error = first.colours[pixel] - last.colours[pixel];
-    sums[kError] += product(error, error);
+    const double w = weight(last.colours[pixel]);
+    sums[kError] += w * product(error, error);
     sums[kErrorMean] += luminance(error);
-    sums[kReferenceNoise] += last.noise[pixel];
+    sums[kReferenceNoise] += w * last.noise[pixel];
     sums[kReferenceMean] += luminance(last.colours[pixel]);
     sums[kPixels] += 1;
     for (std::size_t k = 0; k < steps(); ++k) {
       const Image &before = images_[k], &after = images_[k + 1];
       const Vec3 change = before.colours[pixel] - after.colours[pixel];
       sums[index(k, kMean)] += luminance(change);
-      sums[index(k, kSquares)] += product(change, change) - before.noise[pixel] - after.noise[pixel];
-      sums[index(k, kProducts)] += product(change, error);
+      sums[index(k, kSquares)] += w * (product(change, change) - before.noise[pixel] - after.noise[pixel]);
+      sums[index(k, kProducts)] += w * product(change, error);
       // The reference's noise is in the last step and in the whole error: a row of its own.
-      if (k + 1 == steps()) sums[index(k, kProducts)] -= last.noise[pixel];
+      if (k + 1 == steps()) sums[index(k, kProducts)] -= w * last.noise[pixel];
     }
   }
 
@@ -162,6 +176,8 @@ class Chain {
   }
 
   const Frame& reference_;
+  Weights weights_;
+  double epsilon_ = 0;  // added to squares of the reference
   Blocks blocks_;
   std::vector<Image> images_;  // from the one under test to the reference
   std::vector<Sums> sums_;     // of each block
@@ -205,9 +221,9 @@ Json step_json(const Step& step) {
 }  // namespace
 
 Decomposition decompose(const Frame& test, const std::vector<CauseRemoved>& chain, const Frame& reference,
-                        const std::string& remainder) {
+                        const std::string& remainder, Weights weights) {
   check(test, chain, reference);
-  Decomposition out = Chain(test, chain, reference).measure();
+  Decomposition out = Chain(test, chain, reference, weights).measure();
   for (std::size_t k = 0; k < chain.size(); ++k) {
     out.steps[k].cause = chain[k].cause;
     out.steps[k].files = chain[k].files;
@@ -226,6 +242,7 @@ Json to_json(const Decomposition& result, const DecompositionNames& names,
            {"test", names.test},
            {"reference", names.reference},
            {"layer", names.layer},
+           {"weights", names.weights == Weights::relative ? "relative" : "absolute"},
            {"result", is_explained(result, limit) ? "explained" : "unexplained"},
            {"pixels", result.pixels},
            {"reference_mean", result.reference_mean}};

@@ -44,16 +44,21 @@ struct Decomposition {
   bool unexplained() const { return remainder.power_interval.low > 0; }  // more than noise remains
 };
 
+// What a pixel's products count: as they are, or divided by the square of the reference there, so that dark
+// pixels count as much as bright ones, as in relmse.
+enum class Weights { absolute, relative };
+
 // Intervals are of bootstraps over blocks of pixels. Throws wrong_size; invalid_data when the reference is
 // black, or when an image of the mean behind a step is the one before it, whose own noise the step would
 // hide.
 Decomposition decompose(const Frame& test, const std::vector<CauseRemoved>& chain, const Frame& reference,
-                        const std::string& remainder);
+                        const std::string& remainder, Weights weights = Weights::absolute);
 
 // The result as vsgltools/decomposition/1 (configs/schema/decomposition.schema.json). `limit`: the largest
 // power of the remainder that does not matter; none: what is within noise. `names`: test and reference.
 struct DecompositionNames {
   std::string test, reference, layer;
+  Weights weights = Weights::absolute;
 };
 nlohmann::ordered_json to_json(const Decomposition& result, const DecompositionNames& names,
                                const std::optional<double>& limit);

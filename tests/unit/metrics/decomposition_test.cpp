@@ -101,6 +101,28 @@ TEST(Decomposition, KnownShares) {
   EXPECT_TRUE(d.unexplained());
 }
 
+// Relative weights: the whole is relmse, and an error of a dark pixel counts as much as one of a bright
+// pixel.
+TEST(Decomposition, RelativeWeights) {
+  const Frame dark = image([](int x, int) { return x < kWidth / 2 ? 1.0 / 16 : 4.0; });
+  const auto gain = [&](float left, float right) {
+    Frame out = dark;
+    for (std::size_t i = 0; i < out.colours.size(); ++i)
+      for (float& v : out.colours[i]) v *= i % kWidth < kWidth / 2 ? left : right;
+    return out;
+  };
+  const Decomposition d =
+      metrics::decompose(gain(1.5f, 1.5f), {removed("dark", {gain(1, 1.5f)}), removed("bright", {dark})},
+                         dark, "rest", metrics::Weights::relative);
+  EXPECT_NEAR(d.rms * d.rms, d.relmse, 1e-6 * d.relmse);
+  EXPECT_NEAR(d.steps[0].share, 0.5, 0.05);  // the epsilon takes some of the dark ones
+  EXPECT_NEAR(d.steps[1].share, 0.5, 0.05);
+  EXPECT_NEAR(sum_of_shares(d), 1, 1e-12);
+  const Decomposition absolute =
+      decompose(gain(1.5f, 1.5f), {removed("dark", {gain(1, 1.5f)}), removed("bright", {dark})}, dark);
+  EXPECT_LT(absolute.steps[0].share, 0.001);
+}
+
 // Errors of opposite signs: the shares still add up, one is negative.
 TEST(Decomposition, CancellingErrors) {
   const Frame leaks = sum(truth(), constant(-0.5));

@@ -116,6 +116,35 @@ TEST(Flicker, NoiseOfTheReferenceIsSubtracted) {
   EXPECT_TRUE(r.misaligned.empty());
 }
 
+// Frames that differ by noise only are as near to their neighbours as to their own.
+TEST(Flicker, NoiseIsNoShiftInTime) {
+  const auto flat = [](int) { return frame_of([](int, int) { return Colour{1, 1, 1}; }); };
+  const auto grain = [&](int t) {
+    Frame frame = noisy(t, 0.1, 5);
+    const Frame moving = scene(t);
+    for (std::size_t i = 0; i < frame.colours.size(); ++i)
+      for (int c = 0; c < 3; ++c) frame.colours[i][c] += 1 - moving.colours[i][c];
+    return frame;
+  };
+  EXPECT_TRUE(measure(flat, grain, 4).misaligned.empty());
+  EXPECT_TRUE(measure(grain, flat, 4).misaligned.empty());
+}
+
+TEST(Flicker, BackgroundDoesNotCount) {
+  const auto dot = [](double bright) {
+    return frame_of([&](int x, int y) {
+      const auto v = static_cast<float>(x < 8 && y < 4 ? bright : 0);
+      return Colour{v, v, v};
+    });
+  };
+  const FlickerResult r =
+      measure([&](int t) { return dot(t % 2 == 0 ? 1 : 1.25); }, [&](int) { return dot(1); });
+  EXPECT_EQ(r.pixels, 32u);
+  EXPECT_NEAR(r.mean, 1, 1e-6);
+  EXPECT_NEAR(r.flicker, 0.25, 1e-6);
+  EXPECT_NEAR(r.step_p99, 0.25 / 1.05, 0.001);
+}
+
 TEST(Flicker, RelativeFlickerIsThatOfDarkPixelsToo) {
   const auto flat = [](int) {
     return frame_of([](int x, int) { return x < 48 ? Colour{1, 1, 1} : Colour{9, 9, 9}; });
@@ -213,6 +242,15 @@ TEST(Flicker, SpectrumKeepsThePowerOfNoise) {
   }
   EXPECT_NEAR(all, 9, 0.05 * 9);
   EXPECT_NEAR(half, 4.5, 0.05 * 4.5);
+}
+
+// The highest frequency has no twin of negative frequency.
+TEST(Flicker, SpectrumOfTheFastestWave) {
+  std::vector<double> signal(64);
+  for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = i % 2 == 0 ? 1 : -1;
+  double all = 0;
+  for (const double bin : metrics::PowerSpectrum(64).of(signal)) all += bin;
+  EXPECT_NEAR(all, 1, 0.01);
 }
 
 TEST(Flicker, BadSequences) {
