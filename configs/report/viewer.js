@@ -16,9 +16,11 @@ class Viewer {
     this.stage = new Stage(this.find(".stage canvas"), set.width, set.height, (width, height) => this.regions(width, height), () => this.showView());
     this.pointer = new StagePointer(this);
     root.addEventListener("keydown", (event) => this.keyDown(event));
-    root.addEventListener("keyup", (event) => event.key === " " && this.change({flipped: false}));
+    root.addEventListener("keyup", ({key}) => key === " " && this.state.flipped && this.change({flipped: false}));
     narrowWindow.addEventListener("change", () => this.showShape());
-    root.addEventListener("focusout", () => this.state.flipped && this.change({flipped: false}));
+    root.addEventListener("focusout", ({relatedTarget}) => {
+      if (this.state.flipped && !root.contains(relatedTarget)) this.change({flipped: false});
+    });
   }
 
   // ---- controls ----
@@ -221,15 +223,15 @@ class Viewer {
     const {a, b, exposure, tone} = this.state;
     if (!this.pixel) return drawReadout(this.find(".readout"), "Point at a pixel to read its values.", []);
     const [x, y] = this.pixel, i = y * this.set.width + x;
-    const texts = (planes) => planes.map((plane) => numberText(plane[i]));
+    const texts = (planes) => planes.map((plane) => numberText(plane[i], 3));  // what half floats can tell
     const shown = (side) => [...this.pictures[side].pixels.slice(4 * i, 4 * i + 3)];
     const rows = [
       ["A", "a", texts(this.layer.values[a]), shown(0)],
       ["B", "b", texts(this.layer.values[b]), shown(1)],
-      ["A − B", "difference", [numberText(this.difference[i])], null],
+      ["A − B", "difference", [numberText(this.difference[i], 3)], null],
       ["relative", "relative", [percentText(this.relative[i])], null],
     ];
-    if (this.errorChoices()[this.state.error].index !== undefined) rows.push([this.error.name, "map", [numberText(this.error.values[i])], null]);
+    if (this.errorChoices()[this.state.error].index !== undefined) rows.push([this.error.name, "map", [numberText(this.error.values[i], 3)], null]);
     drawReadout(this.find(".readout"), `x ${x}  y ${y}`, rows);
   }
 

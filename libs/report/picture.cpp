@@ -68,13 +68,17 @@ int rank_of(const ExrPart& part, const std::string& layer) {
   return find_floats(part, channel_of(layer, 'R')) ? 1 : 2;
 }
 
-// Layers of one part, without those channels that belong to a triple.
+// Layers of one part: each triple of channels as one, every other channel by itself.
 std::vector<std::string> layers_of(const ExrPart& part) {
   std::vector<std::string> names;
   for (const auto& [channel, plane] : part.levels.front().channels) {
-    if (!std::holds_alternative<PlaneValues>(plane)) continue;
+    const auto* values = std::get_if<PlaneValues>(&plane);
+    if (!values) continue;
     const std::string layer = layer_of(channel);
-    names.push_back(planes_of(part, layer).size() == 3 && channel != layer ? layer : channel);
+    const auto triple = planes_of(part, layer);
+    const bool in_triple =
+        triple.size() == 3 && std::find(triple.begin(), triple.end(), values) != triple.end();
+    names.push_back(in_triple ? layer : channel);
   }
   std::sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
     return std::pair(rank_of(part, a), a) < std::pair(rank_of(part, b), b);
