@@ -63,15 +63,15 @@ def stage_table(rows):
                  [[*(row[key] for key in keys), *(row["times"]["stages"].get(tool) for tool in tools)] for row in rows])
 
 
-def viewer(rows, comparisons):
+def viewer(rows):
     """The first frame of a scene: each variant's image with the largest N, of its first seed, beside the reference."""
     best = {}
     for row in rows:
         other = best.get(row["variant"])
         if row["frame"] == rows[0]["frame"] and (other is None or (row["n"] or 0) > (other["n"] or 0)):
             best[row["variant"]] = row
-    tests = [{"file": row["image"], "label": row["variant"] if row["n"] is None else f"{row['variant']}, {row['n']}",
-              "metrics": comparisons[row["image"]]} for row in best.values()]
+    tests = [{"file": row["image"], "label": row["variant"] if row["n"] is None else f"{row['variant']}, {row['n']}"}
+             for row in best.values()]
     reference = {"file": rows[0]["reference"], "label": "reference"}
     return {"type": "images", "reference": reference, "tests": tests, "layers": ["indirect"]}
 
@@ -95,8 +95,7 @@ def decomposition_tables(decompositions):
 
 def sections(plan, results):
     experiment, rows = plan["experiment"], results["rows"]
-    comparisons = {row["image"]: row["comparison"] for row in plan["rows"]}
-    viewers = [{"title": scene, "content": [viewer([row for row in rows if row["scene"] == scene], comparisons)]}
+    viewers = [{"title": scene, "content": [viewer([row for row in rows if row["scene"] == scene])]}
                for scene in experiment["scenes"]]
     found = [{"title": "Error against time", "content": figures(experiment, rows, "time_s")},
              {"title": "Error against N", "content": figures(experiment, rows, "n")},

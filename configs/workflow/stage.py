@@ -57,6 +57,7 @@ def main():
     parser.add_argument("--warm-up", action="store_true", help="run the tool once before: its shaders are compiled then")
     parser.add_argument("command", nargs="+", help="the tool and its arguments")
     options = parser.parse_args()
+    os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # threads that wait give their core away, to other jobs for instance
 
     options.folder.mkdir(parents=True, exist_ok=True)
     lock = os.open(options.folder, os.O_RDONLY | os.O_DIRECTORY)

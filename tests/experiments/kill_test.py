@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The tiny experiment, killed with SIGKILL at ten random moments (all of its processes) and restarted each time, ends with the
-bytes of the undisturbed run. So does one whose tool dies between writing its temporary file and renaming it."""
+bytes of the undisturbed run. So does one that dies between the writing of a temporary file and its renaming."""
 
 import os
 import pathlib
@@ -52,14 +52,16 @@ def killed_at_random(bin_dir, undisturbed, folder):
 
 
 def killed_at_rename(bin_dir, undisturbed, folder, shim, tool, name):
-    """A tool dies when it is about to give its output a name; all that it had made before is taken away first."""
+    """All processes die when the tool, or its stage, is about to give a file its name. What the tool had made before is taken away
+    first."""
     shutil.copytree(undisturbed, folder)
     shutil.rmtree(folder / "stages" / tool)
     environment = dict(os.environ, LD_PRELOAD=str(shim), KILL_AT_RENAME=name)
-    done = run(bin_dir, folder, env=environment, check=False)
-    assert done.returncode != 0, f"{tool} was not killed"
-    assert not list(folder.rglob(f"*/{name}")), f"{name} is there though {tool} was killed before"
-    assert list(folder.rglob(f".{pathlib.Path(name).stem}.tmp-*")), f"{name}: no temporary file; was {tool} killed elsewhere?"
+    done = subprocess.run(command(bin_dir, folder), env=environment, capture_output=True, check=False, start_new_session=True)
+    assert done.returncode == -signal.SIGKILL, f"{tool} renamed nothing to {name}"
+    made = [path.name for path in (folder / "stages" / tool).rglob("*")]
+    assert name not in made, f"{name} is there though {tool} was killed before"
+    assert any(other.startswith(f".{pathlib.Path(name).stem}") and ".tmp-" in other for other in made), f"{name}: no temporary file"
     run(bin_dir, folder)
 
 
@@ -71,7 +73,7 @@ def main():
         folder = pathlib.Path(temporary) / "random"
         killed_at_random(options.bin, options.undisturbed, folder)
         require_same(folder, options.undisturbed, options.bin, "killed at random")
-        for tool, name in (("rsm-bake", "rsm.exr"), ("compare", "comparison.json")):
+        for tool, name in (("rsm-bake", "rsm.exr"), ("compare", "report.json")):
             folder = pathlib.Path(temporary) / tool
             killed_at_rename(options.bin, options.undisturbed, folder, options.shim, tool, name)
             require_same(folder, options.undisturbed, options.bin, f"{tool}, killed at the renaming of {name}")
