@@ -28,7 +28,8 @@ TEST_F(PipelineJson, AbsentStagesHaveTheirDefaults) {
 }
 
 TEST_F(PipelineJson, EveryKindOfOptionArrives) {
-  const Pipeline p = read(R"(, "rsm_bake": {"rsm_size": "64x32", "resolution": "80x45", "rsm_normals": "paper"},
+  const Pipeline p =
+      read(R"(, "rsm_bake": {"rsm_size": "64x32", "resolution": "80x45", "rsm_normals": "paper"},
       "pdf_build": {"method": "flux"}, "vsgl_gen": {"count": 7, "kernel_scale": 2},
       "ismap": {"no_pull_push": true}, "shade": {"cbr": 0.25, "specular_lobe": "asg"})");
   EXPECT_EQ(p.rsm_bake.rsm.width, 64);
