@@ -8,10 +8,9 @@ void add_options(CLI::App& app, ReferenceParams& params) {
   app.add_option("--strategy", params.strategy,
                  "where paths start: light, at the sources; brdf, at the camera; mis, both, weighted")
       ->check(CLI::IsMember({"light", "brdf", "mis"}));
-  app.add_option(
-         "--samples,--spp", params.samples,
-         "paths a pixel and kind of path (with --target-error or --time-budget and no --samples: as many "
-         "as it takes)")
+  app.add_option("--samples", params.samples,
+                 "paths a pixel and kind of path (with --target-error or --time-budget: as many as it takes, "
+                 "unless this is given)")
       ->check(CLI::Range(1, kMaxSamples));
   app.add_option("--target-error", params.target_error,
                  "stop when sqrt(mean variance) / mean of the indirect light is below")
