@@ -19,6 +19,7 @@ LayerOptions needed(const Options& options) {
   };
   out.with_flip = any_starts_with("flip");
   out.with_ssim = any_starts_with("ssim");
+  out.with_z = options.z_test || any_starts_with("z_");
   return out;
 }
 

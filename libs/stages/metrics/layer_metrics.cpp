@@ -226,7 +226,7 @@ std::optional<LayerResult> measure_layer(LayerPair layer, const Uncertainty& tes
   meter.measure_relative(out);
   meter.measure_bias(out);
   meter.measure_distributions(out);
-  out.z = meter.measure_z(options.significance);
+  if (options.with_z) out.z = meter.measure_z(options.significance);
   return out;
 }
 

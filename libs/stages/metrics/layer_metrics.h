@@ -68,7 +68,7 @@ struct LayerOptions {
   FlipMode flip_mode = FlipMode::hdr;
   double flip_pixels_per_degree = kFlipPixelsPerDegree;
   double significance = 0.05;  // of the z-test
-  bool with_flip = true, with_ssim = true;
+  bool with_flip = true, with_ssim = true, with_z = true;
 };
 
 // Nothing when no pixel is finite on both sides. Variances belong to the layer `indirect`: `test` and
