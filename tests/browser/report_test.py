@@ -247,6 +247,16 @@ class ReportTest:
         require("indirect.G" in failures and "not finite" in failures.lower() or "nan" in failures.lower(), f"failures: {failures!r}")
         require(self.browser.find_element(By.CSS_SELECTOR, ".verdict").text == "differs", "the verdict")
 
+    def chain(self):
+        """A page of compare --step: every image of the chain is in one viewer."""
+        write_exr(self.folder / "between.exr", SIZE, SIZE, test_image(1.1))
+        page = self.compared("a", "--step", "sampling=between.exr")
+        Select(page.find(".choose-a")).select_by_visible_text("without sampling")
+        page.wait(lambda: page.viewer.get_attribute("data-ready") == "0 2 0 0", "the other image")
+        page.exposure(0)
+        page.expect(2, 5, shown(test_image(1.1), "indirect", 2, 5, 0), "the image without sampling")
+        require("steps" in page.script("return [...document.querySelectorAll('caption')].map(c => c.textContent)"), "the steps have a table")
+
     def described(self):
         """A report from a description with hostile texts, an SVG and a fragment that would run scripts."""
         svg = ("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'><rect width='10' height='10' fill='#0a0'/>"
@@ -294,7 +304,8 @@ class ReportTest:
 
     def checks(self):
         return [(check.__name__, lambda c=check: self.quiet(c)) for check in (
-            self.exposure, self.tone, self.divider, self.flip, self.layers_and_errors, self.readout, self.table, self.non_finite, self.described)]
+            self.exposure, self.tone, self.divider, self.flip, self.layers_and_errors, self.readout, self.table, self.non_finite,
+            self.chain, self.described)]
 
 
 def start_browser(profile):
@@ -314,6 +325,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--compare", type=pathlib.Path, required=True, help="the executable")
     parser.add_argument("--report", type=pathlib.Path, required=True, help="the executable")
+    parser.add_argument("--only", action="append", help="run this check alone (repeatable)")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as profile:
         try:
@@ -322,7 +334,8 @@ def main():
             print(f"FAIL Chromium does not start: {failure}")
             return 1
         try:
-            return run_checks(ReportTest(browser, arguments.compare.resolve(), arguments.report.resolve(), folder).checks())
+            checks = ReportTest(browser, arguments.compare.resolve(), arguments.report.resolve(), folder).checks()
+            return run_checks([check for check in checks if not arguments.only or check[0] in arguments.only])
         finally:
             browser.quit()
 
