@@ -38,7 +38,8 @@ def chain_times(bin_dir, folder, repetitions):
 
 
 def experiment(bin_dir, folder):
-    """Runs configs/experiments/small.json; returns the rows of its table. What is there already is not timed again."""
+    """Runs configs/experiments/small.json, from nothing so that all times are new; returns the rows of its table."""
+    shutil.rmtree(folder, ignore_errors=True)
     small = WORKFLOW.parent / "experiments" / "small.json"
     subprocess.run([sys.executable, WORKFLOW / "experiment.py", small, "--bin", bin_dir, "--output", folder], check=True,
                    stdout=subprocess.DEVNULL)

@@ -57,8 +57,8 @@ def draw(axes, curves, variants, x, metric):
     """One scene's curves."""
     for variant, points in curves.items():
         index = variants.index(variant)
-        axes.plot(*zip(*points), color=COLOURS[index % len(COLOURS)], marker=MARKERS[index % len(MARKERS)], markersize=4, linewidth=1.4,
-                  label=variant)
+        axes.plot(*zip(*points), color=COLOURS[index % len(COLOURS)], marker=MARKERS[index % len(MARKERS)], markersize=4,
+                  linewidth=1.4, label=variant)
     if x == "time_s":
         front = pareto_front([point for points in curves.values() for point in points])
         axes.plot(*zip(*front), color="#404040", linewidth=0.8, linestyle=":", marker="o", markersize=9, markerfacecolor="none",

@@ -48,8 +48,8 @@ def write_csv(rows, target):
         writer.writerow([*keys, *(f"{tool.replace('-', '_')}_s" for tool in used), *sums, *names])
         for row in rows:
             times = row["times"]
-            writer.writerow([*(row[key] for key in keys), *(times["stages"].get(tool) for tool in used), *(times[key] for key in sums),
-                             *(row["metrics"].get(name) for name in names)])
+            writer.writerow([*(row[key] for key in keys), *(times["stages"].get(tool) for tool in used),
+                             *(times[key] for key in sums), *(row["metrics"].get(name) for name in names)])
 
 
 def main():

@@ -86,8 +86,8 @@ def stop(process):
 
 @contextlib.contextmanager
 def cluster(cpus):
-    """Yields the environment in which Slurm's commands reach the cluster. Raises TimeoutError, with the daemons' logs, if it does not
-    start."""
+    """Yields the environment in which Slurm's commands reach the cluster. Raises TimeoutError, with the daemons' logs, if it does
+    not start."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="vsgl-slurm-"))
     folder.chmod(0o755)  # munge's socket wants folders that anybody may enter
     processes = []

@@ -18,7 +18,7 @@ def parser(description):
     """With the arguments that all tests take."""
     result = argparse.ArgumentParser(description=description)
     result.add_argument("--bin", required=True, type=pathlib.Path, help="folder of the tools")
-    result.add_argument("--undisturbed", required=True, type=pathlib.Path, help="output folder of a run of tiny.json, see fixture.py")
+    result.add_argument("--undisturbed", required=True, type=pathlib.Path, help="output folder of fixture.py")
     return result
 
 
