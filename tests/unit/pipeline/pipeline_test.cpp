@@ -27,6 +27,20 @@ TEST_F(PipelineJson, AbsentStagesHaveTheirDefaults) {
   EXPECT_EQ(read_one.shade.cbr, made.shade.cbr);
 }
 
+TEST(Pipelines, CommittedOnesAreRead) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(VSGL_SOURCE_DIR "/configs/pipelines")) {
+    EXPECT_NO_THROW(read_pipeline(entry.path())) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 4u);
+  const Pipeline vsgl = read_pipeline(VSGL_SOURCE_DIR "/configs/pipelines/vsgl.json"), defaults;
+  EXPECT_EQ(vsgl.pdf_build.method, defaults.pdf_build.method);
+  EXPECT_EQ(vsgl.vsgl_gen.method, defaults.vsgl_gen.method);
+  EXPECT_EQ(vsgl.ismap->method, defaults.ismap->method);
+  EXPECT_EQ(vsgl.shade.method, defaults.shade.method);
+}
+
 TEST_F(PipelineJson, EveryKindOfOptionArrives) {
   const Pipeline p =
       read(R"(, "rsm_bake": {"rsm_size": "64x32", "resolution": "80x45", "rsm_normals": "paper"},
