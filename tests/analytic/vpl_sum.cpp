@@ -81,7 +81,7 @@ VplSum vpl_sum(const GBuffer& gbuffer, const Rsm& rsm) {
   return out;
 }
 
-std::vector<bool> far_from_texels(const GBuffer& gbuffer, const Rsm& rsm, bool lobes) {
+std::vector<bool> far_from_texels(const GBuffer& gbuffer, const Rsm& rsm, bool points) {
   const std::vector<Vpl> lights = vpls(rsm);
   std::vector<char> far(gbuffer.pixels.size());
 #pragma omp parallel for schedule(dynamic, 64)
@@ -91,9 +91,9 @@ std::vector<bool> far_from_texels(const GBuffer& gbuffer, const Rsm& rsm, bool l
     far[i] = std::none_of(lights.begin(), lights.end(), [&](const Vpl& light) {
       const Vec3 v = light.position - widen(pixel.position);
       const double d = length(v), facing = std::min(dot(v, widen(pixel.normal)), -dot(v, light.normal));
-      const double width =
-          lobes ? std::min(static_cast<double>(pixel.alpha), light.alpha) : 1;  // at distance 1
-      return d * width <= light.footprint && facing >= coplanar * d;
+      if (!points) return d <= light.footprint;
+      const double lobe = std::min(static_cast<double>(pixel.alpha), light.alpha);  // width at distance 1
+      return d * lobe <= light.footprint && facing >= coplanar * d;
     });
   }
   return {far.begin(), far.end()};

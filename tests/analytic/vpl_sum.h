@@ -17,9 +17,10 @@ struct VplSum {
 
 VplSum vpl_sum(const GBuffer& gbuffer, const Rsm& rsm);
 
-// Whether each pixel lies farther from every lit texel that it faces than that texel's footprint; false for
-// background. `lobes`: so far that specular lobes of both, too, are wider than the footprint.
-std::vector<bool> far_from_texels(const GBuffer& gbuffer, const Rsm& rsm, bool lobes = false);
+// Whether each pixel lies farther from every lit texel than that texel's footprint; false for background.
+// `points`: where texels are exact point lights, those in the pixel's own plane do not count, but specular
+// lobes of both must be wider than the footprint.
+std::vector<bool> far_from_texels(const GBuffer& gbuffer, const Rsm& rsm, bool points = false);
 
 // Sum of the reflected powers of all texels, and of all lights, W, luminance.
 double reflected_power(const Rsm& rsm);
