@@ -74,7 +74,7 @@ Pdf read_pdf(const std::filesystem::path& path);
 
 // Virtual lights. `anchor` as in the RSM.
 struct Lights {
-  std::string method;  // vpl | fis-2014 | fis-2016
+  std::string method;  // vpl | fis-2014 | fis-2016 | texels
   Vec3 anchor;
   double scene_radius = 1;
   int requested = 0;  // samples drawn; lights without power are dropped
