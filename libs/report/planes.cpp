@@ -111,18 +111,10 @@ std::vector<PlaneValues> decode(const EncodedPlanes& encoded, std::size_t planes
   return out;
 }
 
-PlaneValues difference_from(const PlaneValues& test, const PlaneValues& reference,
-                            const PlaneValues& stored_reference) {
+PlaneValues difference_from(const PlaneValues& test, const PlaneValues& reference) {
   PlaneValues out(test.size());
-  for (std::size_t i = 0; i < test.size(); ++i) {
-    const float a = test[i], b = reference[i], stored = stored_reference[i];
-    if (!std::isfinite(a) || !std::isfinite(stored)) {
-      out[i] = a;
-    } else {
-      // Small errors are kept as such; large ones so that the sum gives the test, above all where it is 0.
-      out[i] = std::abs(a - b) < std::abs(b) / 2 ? a - b : a - stored;
-    }
-  }
+  for (std::size_t i = 0; i < test.size(); ++i)
+    out[i] = std::isfinite(test[i]) && std::isfinite(reference[i]) ? test[i] - reference[i] : test[i];
   return out;
 }
 

@@ -22,10 +22,9 @@ EncodedPlanes encode(std::span<const PlaneValues> planes, int width, int height)
 // What the page reads.
 std::vector<PlaneValues> decode(const EncodedPlanes& encoded, std::size_t planes, int width, int height);
 
-// What is stored of a test, so that small errors keep their digits: `stored_reference` (what decode() gives)
-// + difference is the test, the difference the error, each within 2^-9 of the larger of its operands and of
-// itself respectively. Where either side is not finite it is the test itself.
-PlaneValues difference_from(const PlaneValues& test, const PlaneValues& reference,
-                            const PlaneValues& stored_reference);
+// What is stored of a test, so that small errors keep their digits: what the page has of the reference, plus
+// this, is the test within 2^-9 of the larger of the two. Where either side is not finite it is the test
+// itself.
+PlaneValues difference_from(const PlaneValues& test, const PlaneValues& reference);
 
 }  // namespace vsgl::report
