@@ -54,9 +54,10 @@ struct ShadingPush {
   float normal_offset;    // texels
   float slope_bias;       // texels per tangent
   float relative_bias;
+  uint first_row;   // of the atlas: light `index` has its map in tile row index / columns - first_row
   uint first_word;  // of the block's lights: light `index` has bit index % 32 of word index / 32 - first_word
 };
-VSGL_CHECK_SIZE(ShadingPush, 56)
+VSGL_CHECK_SIZE(ShadingPush, 60)
 
 // Kinds of visibility.
 VSGL_CONST uint VISIBILITY_NONE = 0u;

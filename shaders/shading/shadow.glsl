@@ -32,7 +32,7 @@ float map_visibility(Receiver r, uint index) {
   vec2 p = (hemi_octahedral_encode(w) * 0.5 + 0.5) * size - 0.5;
   ivec2 base = ivec2(floor(p));
   vec2 f = p - floor(p);
-  uint corner = (index / push.columns * push.columns * push.tile + index % push.columns) * push.tile;
+  uint corner = ((index / push.columns - push.first_row) * push.columns * push.tile + index % push.columns) * push.tile;
   vec4 nearest = vec4(shadow_texel(corner, base), shadow_texel(corner, base + ivec2(1, 0)),
                       shadow_texel(corner, base + ivec2(0, 1)), shadow_texel(corner, base + ivec2(1, 1)));
   // Lit where biased <= distance in the map; an empty texel (0) always is.

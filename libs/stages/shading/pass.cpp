@@ -136,12 +136,12 @@ class Pass {
     const std::size_t count = receivers.pixels.size();
     push_.receivers = static_cast<std::uint32_t>(count);
     push_.lights = static_cast<std::uint32_t>(lights.size());
-    push_.first_word = lights.front().index / 32;
+    visibility_.locate(lights, push_);
     gpu::Buffer block = upload_block(lights);
     gpu::Buffer bits = visibility_.bits(lights, receivers.pixels);
     gpu::Commands commands(device_);
     commands.dispatch(kPhase, pipeline,
-                      {surfaces, block, results, visibility_.atlas(), visibility_.views(), bits}, push_,
+                      {surfaces, block, results, visibility_.maps(lights), visibility_.views(), bits}, push_,
                       {gpu::groups_for(count, interop::SHADING_GROUP * pixels), 1, 1});
     commands.submit(report);
   }

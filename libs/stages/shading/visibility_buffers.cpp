@@ -39,18 +39,41 @@ void VisibilityBuffers::describe(interop::ShadingPush& push) const {
   push.relative_bias = static_cast<float>(maps_->relative_bias);
 }
 
+std::size_t VisibilityBuffers::row_of(const ShadingLight& light) const {
+  return light.index / static_cast<std::size_t>(maps_->columns);
+}
+
+std::size_t VisibilityBuffers::row_bytes() const {
+  const auto tile = static_cast<std::size_t>(maps_->tile);
+  return static_cast<std::size_t>(maps_->columns) * tile * tile * sizeof(float);
+}
+
 std::span<const ShadingLight> VisibilityBuffers::leading(std::span<const ShadingLight> lights,
                                                          std::size_t receivers) const {
-  if (!bits_) return lights;
-  const std::size_t words = device_.limits().maxStorageBufferRange / sizeof(std::uint32_t) / receivers;
-  if (words == 0)
-    throw Error(ErrorCode::device_limit, "visibility bits of " + std::to_string(receivers) +
-                                             " pixels exceed the device's buffers of " +
-                                             std::to_string(device_.limits().maxStorageBufferRange) +
-                                             " bytes; use a smaller image or shadow maps");
+  if (!maps_ && !bits_) return lights;
+  const std::size_t visible = device_.limits().maxStorageBufferRange;
+  const std::size_t units = visible / (maps_ ? row_bytes() : sizeof(std::uint32_t) * receivers);
+  if (units == 0)
+    throw Error(ErrorCode::device_limit,
+                (maps_ ? "a row of the atlas of shadow maps exceeds"
+                       : "visibility bits of " + std::to_string(receivers) + " pixels exceed") +
+                    " the device's buffers of " + std::to_string(visible) + " bytes; use " +
+                    (maps_ ? "smaller maps" : "a smaller image or shadow maps"));
+  const auto unit_of = [&](const ShadingLight& light) { return maps_ ? row_of(light) : word_of(light); };
   std::size_t count = lights.size();
-  while (word_of(lights[count - 1]) - word_of(lights[0]) >= words) --count;
+  while (unit_of(lights[count - 1]) - unit_of(lights[0]) >= units) --count;
   return lights.first(count);
+}
+
+gpu::BufferRange VisibilityBuffers::maps(std::span<const ShadingLight> lights) {
+  if (!maps_) return atlas_;
+  const std::size_t first = row_of(lights.front()), rows = row_of(lights.back()) - first + 1;
+  return {atlas_, first * row_bytes(), rows * row_bytes()};
+}
+
+void VisibilityBuffers::locate(std::span<const ShadingLight> lights, interop::ShadingPush& push) const {
+  if (maps_) push.first_row = static_cast<std::uint32_t>(row_of(lights.front()));
+  if (bits_) push.first_word = word_of(lights.front());
 }
 
 gpu::Buffer VisibilityBuffers::bits(std::span<const ShadingLight> lights,

@@ -5,31 +5,40 @@
 
 #include "artifact/artifact.h"
 #include "gpu/buffer.h"
+#include "gpu/compute.h"
 #include "gpu/device.h"
 #include "interop/shading.h"
 
 namespace vsgl {
 
-// The device's side of a Visibility, which must outlive it. Shadow maps lie on the device as a whole, bits go
-// there with each block of lights: those of many lights exceed what a shader may see of a buffer.
+// The device's side of a Visibility, which must outlive it. What belongs to many lights exceeds what a shader
+// may see of a buffer: of the shadow maps, which lie on the device as a whole, it sees those of a block of
+// lights; bits go there with each block.
 class VisibilityBuffers {
  public:
   VisibilityBuffers(const Visibility* visibility, gpu::Device& device);
 
   std::uint32_t kind() const { return kind_; }  // VISIBILITY_* of interop/shading.h
   void describe(interop::ShadingPush& push) const;
-  gpu::Buffer& atlas() { return atlas_; }
   gpu::Buffer& views() { return views_; }
 
-  // As many of `lights`, from the first on, as bits of so many receivers fit into one buffer; all of them
-  // without bits. Throws device_limit when not even those of 32 lights fit.
+  // As many of `lights`, from the first on, as a shader may see the maps of, or the bits of so many receivers;
+  // all of them without visibility. Throws device_limit when not even one row of maps, or the bits of 32
+  // lights, fits.
   std::span<const interop::ShadingLight> leading(std::span<const interop::ShadingLight> lights,
                                                  std::size_t receivers) const;
+  // The atlas from the first light's row of maps to the last light's.
+  gpu::BufferRange maps(std::span<const interop::ShadingLight> lights);
   // Words from that of the first light to that of the last, each for all pixels of the list.
   gpu::Buffer bits(std::span<const interop::ShadingLight> lights,
                    std::span<const std::uint32_t> pixels) const;
+  // Sets where in `maps` and `bits` the lights are.
+  void locate(std::span<const interop::ShadingLight> lights, interop::ShadingPush& push) const;
 
  private:
+  std::size_t row_of(const interop::ShadingLight& light) const;  // of the atlas, in maps
+  std::size_t row_bytes() const;
+
   gpu::Device& device_;
   std::uint32_t kind_;
   const ShadowMaps* maps_;
