@@ -22,9 +22,9 @@ class VisibilityBuffers {
   void describe(interop::ShadingPush& push) const;
   gpu::Buffer& views() { return views_; }
 
-  // As many of `lights`, from the first on, as a shader may see the maps of, or the bits of so many receivers;
-  // all of them without visibility. Throws device_limit when not even one row of maps, or the bits of 32
-  // lights, fits.
+  // As many of `lights`, from the first on, as a shader may see the maps of, or the bits of so many
+  // receivers; all of them without visibility. Throws device_limit when not even one row of maps, or the bits
+  // of 32 lights, fits.
   std::span<const interop::ShadingLight> leading(std::span<const interop::ShadingLight> lights,
                                                  std::size_t receivers) const;
   // The atlas from the first light's row of maps to the last light's.

@@ -111,5 +111,32 @@ TEST(Shadow, ASurfaceDoesNotShadowItself) {
   EXPECT_GT(dark, 100);
 }
 
+// More maps (290 MB) than a shader sees at a time: every third light from the 500th on is open, the maps of
+// the others hide everything.
+TEST(Shadow, EachOfManyLightsLooksUpItsOwnMap) {
+  constexpr std::size_t count = 1100;
+  Ceiling scene(4);
+  interop::Light light = scene.lights.lights[1];
+  const double one =
+      static_cast<double>(test::shade_box(scene.gbuffer, scene.lights, {.method = "vpl"}).diffuse[5].x);
+  scene.lights.lights.assign(count, light);
+
+  ShadowMaps maps;
+  maps.tile = 256;
+  maps.columns = 34;
+  for (std::size_t i = 0; i < count; ++i) maps.views.push_back({light.position, {0, 1, 0}});
+  const std::size_t side = 256, row = 34 * side;
+  maps.inverse_distance.assign(row * side * static_cast<std::size_t>(maps.rows()), 100.0f);
+  std::size_t open = 0;
+  for (std::size_t i = 500; i < count; i += 3, ++open)
+    for (std::size_t y = 0; y < side; ++y)
+      std::fill_n(maps.inverse_distance.begin() +
+                      static_cast<std::ptrdiff_t>((i / 34 * side + y) * row + i % 34 * side),
+                  side, 0.0f);
+  const Visibility visibility = maps;
+  const Indirect image = test::shade_box(scene.gbuffer, scene.lights, {.method = "vpl"}, &visibility);
+  EXPECT_NEAR(static_cast<double>(image.diffuse[5].x) / one, static_cast<double>(open), 1e-3);
+}
+
 }  // namespace
 }  // namespace vsgl
