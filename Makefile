@@ -14,6 +14,7 @@ PRESET ?= release
 BUILD := build/$(PRESET)
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
+PYTHON ?= /usr/bin/python3
 SOURCES = $(shell git ls-files 'apps/*.cpp' 'libs/*.cpp' 'libs/*.h' 'tests/*.cpp' 'tests/*.h' 'shaders/interop/*.h')
 
 .PHONY: help setup setup-lint configure build demo test experiment bench asan tidy format format-check install golden-update clean
@@ -35,7 +36,7 @@ build: configure ## build everything: tools, tests, benchmark, manual
 
 demo: configure ## build the tools, run the chain on the demo scenes into out/demo, print the stages
 	@cmake --build --preset $(PRESET) -j $(JOBS) --target tools
-	@python3 configs/workflow/demo.py --bin $(BUILD)/bin --output out/demo
+	@$(PYTHON) configs/workflow/demo.py --bin $(BUILD)/bin --output out/demo
 
 test: build ## build and run every test
 	@cd $(BUILD) && VSGL_VALIDATION=1 ctest --output-on-failure --no-tests=error -j $(JOBS)
@@ -45,11 +46,11 @@ NAME ?= error-vs-time
 experiment: EXPERIMENT_JOBS = $(if $(filter command line environment,$(origin JOBS)),$(JOBS),1)
 experiment: configure ## run configs/experiments/NAME.json into out/experiments/NAME (JOBS=n at once; ARGS for snakemake)
 	@cmake --build --preset $(PRESET) --target tools
-	@/usr/bin/python3 configs/workflow/experiment.py configs/experiments/$(NAME).json --bin $(BUILD)/bin \
+	@$(PYTHON) configs/workflow/experiment.py configs/experiments/$(NAME).json --bin $(BUILD)/bin \
 	  --output out/experiments/$(NAME) --jobs $(EXPERIMENT_JOBS) --snakemake="$(ARGS)"
 
 bench: build ## time the shading kernel against native code, the demo chain stage by stage, and error against time of a small experiment
-	@/usr/bin/python3 configs/workflow/bench.py --bin $(BUILD)/bin --output out/bench
+	@$(PYTHON) configs/workflow/bench.py --bin $(BUILD)/bin --output out/bench
 
 asan: ## the test run under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory build PRESET=asan
@@ -68,7 +69,7 @@ install: build ## install tools, man pages and completion below PREFIX (default 
 	@cmake --install $(BUILD) --prefix $(PREFIX)
 
 golden-update: build ## write the golden images anew from this build; look at the differences before you commit
-	@python3 tests/golden/golden.py --bin $(BUILD)/bin --update
+	@$(PYTHON) tests/golden/golden.py --bin $(BUILD)/bin --update
 
 clean: ## remove build and output folders
 	@rm -rf build out

@@ -1,5 +1,4 @@
 # Man pages and bash completion of every tool, generated from its --help: targets `man` and `completion`, both installed.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 find_program(HELP2MAN help2man REQUIRED)
 
 get_property(tools GLOBAL PROPERTY VSGL_TOOLS)
