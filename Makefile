@@ -54,7 +54,7 @@ bench: build ## time the shading kernel against native code, the demo chain stag
 
 asan: ## the test run under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory build PRESET=asan
-	@cd build/asan && VSGL_VALIDATION=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp ctest --output-on-failure --no-tests=error -j $(JOBS) -LE perf
+	@cd build/asan && VSGL_VALIDATION=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp ctest --output-on-failure --no-tests=error -j $(JOBS) -LE 'perf|experiment|browser'
 
 tidy: setup setup-lint ## clang-tidy over the whole tree
 	@$(MAKE) --no-print-directory build PRESET=tidy
