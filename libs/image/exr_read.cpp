@@ -29,7 +29,7 @@ namespace {
 constexpr int kMaxWidth = 1 << 16;
 constexpr int kMaxHeight = 1 << 24;
 constexpr int kMaxTileSide = 1 << 12;
-constexpr std::size_t kMaxChannels = 1024;
+constexpr std::size_t kMaxChannels = 1 << 15;  // visibility bits of 2^20 lights
 constexpr double kMaxBytes = 32.0 * (1 << 30);
 // zlib cannot compress better than 1032:1, so a header that claims more pixels than that is corrupt.
 constexpr double kMaxZipRatio = 1100;

@@ -14,6 +14,11 @@ Texture read_texture(const std::filesystem::path& path, bool srgb);
 Texture read_texture(std::span<const unsigned char> bytes, const std::string& format, const std::string& name,
                      bool srgb);
 
+// Makes the vectors of a normal map's texels unit, as they are meant to be: filtering takes a shorter mean
+// for normals that spread. Those that are unit but for rounding keep their bytes. Zero vectors become (0, 0,
+// 1). Returns the share of texels that changed, 0..1.
+double normalise_normal_map(Texture& texture);
+
 // Textures by identity, each read once per colour space.
 class TexturePool {
  public:

@@ -37,6 +37,14 @@ TEST_F(Textures, ChannelsBecomeRgba) {
             (Bytes{255, 255, 255, 255}));
 }
 
+// (3, 4) / 5 at half its length, (1, 0, 0) rounded, and nothing at all.
+TEST(NormalMaps, BecomeUnit) {
+  scene::Texture map{"map", 3, 1, false, {166, 179, 128, 9, 255, 128, 127, 9, 128, 127, 128, 9}};
+  EXPECT_DOUBLE_EQ(scene::normalise_normal_map(map), 2.0 / 3);
+  EXPECT_EQ(map.rgba, (Bytes{204, 230, 128, 9, 255, 128, 127, 9, 128, 128, 255, 9}));
+  EXPECT_EQ(scene::normalise_normal_map(map), 0);
+}
+
 TEST_F(Textures, FromMemory) {
   round_trip<std::uint8_t>("rgb.png", 3, OIIO::TypeDesc::UINT8, {9, 8, 7, 6, 5, 4});
   std::ifstream file(folder / "rgb.png", std::ios::binary);
