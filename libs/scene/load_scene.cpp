@@ -9,12 +9,6 @@ namespace vsgl::scene {
 
 namespace fs = std::filesystem;
 
-bool Scene::is_normal_map(std::size_t texture) const {
-  return std::any_of(materials.begin(), materials.end(), [texture](const Material& material) {
-    return material.normal_texture == static_cast<int>(texture);
-  });
-}
-
 std::size_t Scene::triangle_count() const {
   std::size_t count = 0;
   for (const Instance& instance : instances) count += instance.indices.size() / 3;

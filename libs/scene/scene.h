@@ -80,8 +80,6 @@ struct Scene {
   std::vector<std::string> warnings;  // blended materials taken as cut-outs, and the like
 
   std::size_t triangle_count() const;
-  // Whether a texture serves as a normal map.
-  bool is_normal_map(std::size_t texture) const;
 };
 
 // Reads a scene JSON (configs/schema/scene.schema.json) and everything it refers to; paths are relative to

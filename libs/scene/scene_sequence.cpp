@@ -37,11 +37,20 @@ Vec3 choose_anchor(const Bounds& bounds) {
           snap(bounds.low.z, bounds.high.z)};
 }
 
+// Those that serve as nothing else, with a warning where much of one was not unit.
 void normalise_normal_maps(Scene& scene) {
-  for (std::size_t i = 0; i < scene.textures.size(); ++i)
-    if (scene.is_normal_map(i) && normalise_normal_map(scene.textures[i]) > 0.01)
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const auto used_as = [&](int Material::*kind) {
+      return std::any_of(scene.materials.begin(), scene.materials.end(),
+                         [&](const Material& m) { return m.*kind == static_cast<int>(i); });
+    };
+    if (!used_as(&Material::normal_texture) || used_as(&Material::base_color_texture) ||
+        used_as(&Material::metallic_roughness_texture))
+      continue;
+    if (normalise_normal_map(scene.textures[i]) > 0.01)
       scene.warnings.push_back(scene.textures[i].name +
                                ": normals that are not unit vectors were normalised");
+  }
 }
 
 MeshFiles load_mesh_files(const SceneSpec& spec, TexturePool& textures, std::vector<std::string>& warnings) {

@@ -56,6 +56,9 @@ Hit intersect(View view, vec2 texel_centre, Vertex a, Vertex b, Vertex c) {
   return hit;
 }
 
+// Relative, of a unit normal rounded to 8-bit texels: it must not pass for a spread.
+const float LENGTH_ERROR = 1.0 / 255.0;
+
 // A mean normal, and the variance of the normals that it stands for, per axis.
 struct MeanNormal {
   vec3 direction;
@@ -63,8 +66,7 @@ struct MeanNormal {
 };
 
 // Vertex normal bent by the normal map, on the side of `facing`. [Toksvig 2005] The shorter the mean m of a map's unit normals, the
-// wider they spread: their variance is (1 - |m|) / |m|, times the square of the map's scale. |m| is that of whole texels, in alpha: interpolation
-// between texels is no spread.
+// wider they spread: their variance is (1 - |m|) / |m|, times the square of the map's scale.
 MeanNormal shading_normal(Hit hit, Material material, vec3 facing) {
   float variance = 0.0;
   vec3 n = dot(hit.normal, hit.normal) > 1e-12 ? normalize(hit.normal) : hit.geometric_normal;
@@ -73,9 +75,8 @@ MeanNormal shading_normal(Hit hit, Material material, vec3 facing) {
   if (material.normal_texture >= 0 && dot(t, t) > 1e-12) {
     t = normalize(t);
     vec3 b = (hit.tangent.w < 0.0 ? -1.0 : 1.0) * cross(n, t);
-    vec4 texel = texture_trilinear(material.normal_texture, hit.uv, hit.du, hit.dv);
-    vec3 m = 2.0 * texel.xyz - 1.0;
-    variance = max(1.0 / max(texel.a, 1e-3) - 1.0, 0.0) * material.normal_scale * material.normal_scale;
+    vec3 m = 2.0 * texture_trilinear(material.normal_texture, hit.uv, hit.du, hit.dv).xyz - 1.0;
+    variance = max(1.0 / max(length(m), 1e-3) - 1.0 - LENGTH_ERROR, 0.0) * material.normal_scale * material.normal_scale;
     m.xy *= material.normal_scale;
     vec3 bent = m.x * t + m.y * b + m.z * n;
     if (dot(bent, bent) > 1e-12) n = normalize(bent);

@@ -77,12 +77,9 @@ std::vector<interop::Material> all_materials(const scene::Scene& scene) {
 }
 
 // Of all that the mip chain is made from.
-std::string digest(const scene::Texture& texture, bool normal_map) {
+std::string digest(const scene::Texture& texture) {
   return sha256(std::as_bytes(std::span(texture.rgba))) + " " + std::to_string(texture.width) + "x" +
-         std::to_string(texture.height) +
-         (texture.srgb ? " sRGB"
-          : normal_map ? " normals"
-                       : " linear");
+         std::to_string(texture.height) + (texture.srgb ? " sRGB" : " linear");
 }
 
 }  // namespace
@@ -99,10 +96,8 @@ void DeviceScene::upload_texels(const scene::Scene& scene) {
   std::vector<interop::Texture> textures;
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const scene::Texture& t = scene.textures[i];
-    const bool normal_map = scene.is_normal_map(i);
-    const std::string wanted = digest(t, normal_map);
-    if (texels_[i].digest != wanted)
-      texels_[i] = {wanted, gpu::Buffer::from(device_, build_mip_chain(t, normal_map))};
+    const std::string wanted = digest(t);
+    if (texels_[i].digest != wanted) texels_[i] = {wanted, gpu::Buffer::from(device_, build_mip_chain(t))};
     textures.push_back({address_of(*texels_[i].buffer), static_cast<interop::uint>(t.width),
                         static_cast<interop::uint>(t.height),
                         static_cast<interop::uint>(mip_levels(t.width, t.height)), t.srgb ? 1u : 0u});

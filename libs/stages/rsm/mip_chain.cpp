@@ -60,11 +60,6 @@ Level halve(const Level& fine) {
   return coarse;
 }
 
-void store_lengths(Level& level) {
-  for (Texel& texel : level.texels)
-    texel[3] = std::min(std::hypot(2 * texel[0] - 1, 2 * texel[1] - 1, 2 * texel[2] - 1), 1.0f);
-}
-
 void append_encoded(const Level& level, bool srgb, std::vector<std::uint32_t>& out) {
   for (const Texel& texel : level.texels) {
     std::uint32_t word = 0;
@@ -84,7 +79,7 @@ int mip_levels(int width, int height) {
   return levels;
 }
 
-std::vector<std::uint32_t> build_mip_chain(const scene::Texture& texture, bool normal_map) {
+std::vector<std::uint32_t> build_mip_chain(const scene::Texture& texture) {
   const std::size_t expected =
       std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
   if (expected == 0 || texture.rgba.size() != expected) {
@@ -94,12 +89,9 @@ std::vector<std::uint32_t> build_mip_chain(const scene::Texture& texture, bool n
   }
   std::vector<std::uint32_t> words;
   Level level = decode(texture);
-  if (normal_map)
-    for (Texel& texel : level.texels) texel[3] = 1;
   append_encoded(level, texture.srgb, words);
   for (int i = 1; i < mip_levels(texture.width, texture.height); ++i) {
     level = halve(level);
-    if (normal_map) store_lengths(level);
     append_encoded(level, texture.srgb, words);
   }
   return words;

@@ -11,9 +11,8 @@ namespace vsgl {
 int mip_levels(int width, int height);
 
 // All mip levels of a texture, finest first, one RGBA8 word a texel (red in the low byte). Each texel is the
-// mean of the 2x2 above it (odd sizes: the last row or column is dropped), taken in linear light. Of a normal
-// map alpha is the length of the mean of the unit normals below a texel: 1 on the finest level. Throws
+// mean of the 2x2 above it (odd sizes: the last row or column is dropped), taken in linear light. Throws
 // texture_unreadable when size and data disagree.
-std::vector<std::uint32_t> build_mip_chain(const scene::Texture& texture, bool normal_map = false);
+std::vector<std::uint32_t> build_mip_chain(const scene::Texture& texture);
 
 }  // namespace vsgl
