@@ -25,7 +25,6 @@ def read_experiment(path):
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         raise ExperimentError(f"{path}: {error}") from error
     schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
-    schema.pop("$id")  # relative, which Debian's jsonschema takes for a folder to resolve references in
     error = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(schema).iter_errors(experiment))
     if error is not None:
         raise ExperimentError(f"{path}: {pointer(error.absolute_path)}: {error.message}")
