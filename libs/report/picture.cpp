@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "image/exposure.h"
 #include "math/vec.h"
 
 namespace vsgl::report {
@@ -188,15 +189,9 @@ std::vector<std::pair<std::string, std::string>> origin_of(const ExrFile& file) 
 }
 
 double automatic_exposure(const Layer& layer) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < layer.planes.front().size(); ++i) {
-    const double value = luminance_at(layer, i);
-    if (std::isfinite(value) && value > 0) values.push_back(value);
-  }
-  if (values.empty()) return 0;
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
-  std::nth_element(values.begin(), nth, values.end());
-  return std::log2(0.8 / *nth);
+  std::vector<double> luminances;
+  for (std::size_t i = 0; i < layer.planes.front().size(); ++i) luminances.push_back(luminance_at(layer, i));
+  return vsgl::automatic_exposure(std::move(luminances));
 }
 
 }  // namespace vsgl::report

@@ -18,6 +18,8 @@ struct Texture {
   bool srgb = false;
   std::vector<std::uint8_t> rgba;
 
+  // Throws texture_unreadable unless it has at least one texel, and bytes for all.
+  void require_whole() const;
   bool operator==(const Texture&) const = default;
 };
 

@@ -69,6 +69,15 @@ Texture read_texture(std::span<const unsigned char> bytes, const std::string& fo
   return convert(*input, name, srgb);
 }
 
+void Texture::require_whole() const {
+  const std::size_t expected =
+      std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (expected != 0 && rgba.size() == expected) return;
+  throw Error(ErrorCode::texture_unreadable, "texture \"" + name + "\": " + std::to_string(rgba.size()) +
+                                                 " bytes for " + std::to_string(width) + "x" +
+                                                 std::to_string(height) + " texels");
+}
+
 double normalise_normal_map(Texture& texture) {
   constexpr double rounding = 0.0075;  // of a unit vector's length, at most sqrt(3) / 255
   std::size_t changed = 0;

@@ -1,17 +1,11 @@
 #include "trace/texel.h"
 
 #include <cmath>
-#include <string>
 
-#include "base/error.h"
+#include "math/srgb.h"
 
 namespace vsgl::trace {
 namespace {
-
-// IEC 61966-2-1.
-double srgb_decode(double c) {
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 // Remainder in 0..size-1, of negative numbers too.
 int wrap(int x, int size) {
@@ -40,14 +34,7 @@ Taps taps_at(const scene::Texture& t, double u, double v) {
 }  // namespace
 
 TextureSampler::TextureSampler(const std::vector<scene::Texture>& textures) : textures_(textures) {
-  for (const scene::Texture& t : textures) {
-    const std::size_t expected =
-        std::size_t{4} * static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height);
-    if (expected != 0 && t.rgba.size() == expected) continue;
-    throw Error(ErrorCode::texture_unreadable,
-                "texture \"" + t.name + "\": " + std::to_string(t.rgba.size()) + " bytes for " +
-                    std::to_string(t.width) + "x" + std::to_string(t.height) + " texels");
-  }
+  for (const scene::Texture& t : textures) t.require_whole();
   for (std::size_t i = 0; i < decoded_.size(); ++i) decoded_[i] = srgb_decode(static_cast<double>(i) / 255);
 }
 

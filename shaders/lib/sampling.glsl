@@ -5,6 +5,7 @@
 #ifndef VSGL_LIB_SAMPLING_GLSL
 #define VSGL_LIB_SAMPLING_GLSL
 #include "interop/sampling.h"
+#include "lib/hash.glsl"
 
 float density_at(uint layer, int level, ivec2 texel);
 
@@ -27,19 +28,6 @@ uint multiply_mod(uint a, uint b, uint n) {
   return (((a * (b >> 10)) % n) * 1024u + a * (b & 1023u)) % n;
 }
 
-// [Jarzynski 2020] PCG3D: a hash of three words to three words.
-uvec3 pcg3d(uvec3 v) {
-  v = v * 1664525u + 1013904223u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  v ^= v >> 16u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  return v;
-}
-
 // High word of i * 2^64 (sqrt(5) - 1) / 2: the fraction of i times the golden ratio, all 2^20 values distinct.
 uint golden_bits(uint i) {
   uint high, low;
@@ -56,9 +44,6 @@ uvec2 point_bits(PointSet set, uint i) {
                      : fraction_bits(multiply_mod(i, set.generator, set.count), set.count);
   return uvec2(u, v) + set.rotation;
 }
-
-// To [0, 1), exactly: the upper 24 bits.
-vec2 point_of_bits(uvec2 bits) { return vec2(bits >> 8u) * exp2(-24.0); }
 
 // Chooses the first of two parts with probability first / (first + second) and stretches u over the chosen one. Returns 0 or 1.
 // Never chooses a part of weight 0, unless both are.

@@ -8,11 +8,11 @@
 
 #include "interop/model.h"
 #include "interop/surface.h"
+#include "lib/hash.glsl"
 #include "lib/lobe.glsl"
 #include "lib/microfacet.glsl"
 #include "lib/moments.glsl"
-#include "rsm/scene.glsl"
-#include "rsm/view.glsl"
+#include "rsm/hit.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -54,10 +54,32 @@ float step_squared(View view, ivec2 texel, ivec2 axis, Surface s) {
 
 // Ratio of reflected to incident light of a bent normal. A ray tracer weights the light that arrives by the cosine to the shading
 // normal n_s, while the flux through the texel holds the cosine to the geometric normal n_g; light leaves by n_g again.
+float cosine_ratio(vec3 shading_normal, vec3 geometric_normal, vec3 incident) {
+  return max(dot(shading_normal, incident), 0.0) / max(dot(geometric_normal, incident), COS_MIN);
+}
+
 float kappa(vec3 shading_normal, vec3 geometric_normal, vec3 incident) {
-  float ratio = max(dot(shading_normal, incident), 0.0) / max(dot(geometric_normal, incident), COS_MIN);
-  if (ratio > KAPPA_MAX) atomicAdd(Counter(BAKE.clamped_at).count, 1u);
-  return min(ratio, KAPPA_MAX);
+  return min(cosine_ratio(shading_normal, geometric_normal, incident), KAPPA_MAX);
+}
+
+// Mean of kappa times the diffuse reflectance over the texel: one point in each of samples^2 strata, textures at full resolution. Of a rough
+// normal map some normals face away from the light, so that a mean normal would not do, and its colours may go with its normals.
+vec3 reflected_diffuse(View view, ivec2 texel, Surface s, vec3 incident) {
+  Triangle triangle = scene_triangle(Words(BAKE.visibility_at).at[uint(texel.y) * view.width + uint(texel.x)] - 1u);
+  Material material = scene_material(triangle.instance);
+  if (material.normal_texture < 0) return kappa(s.shading_normal, s.normal, incident) * s.diffuse;
+  Hit hit = intersect(view, vec2(texel) + 0.5, triangle);
+  NormalFrame frame = normal_frame(hit, material, s.normal);
+  vec3 sum = vec3(0.0);
+  for (uint j = 0u; j < view.samples; ++j) {
+    for (uint i = 0u; i < view.samples; ++i) {
+      vec2 jitter = point_of_bits(pcg3d(uvec3(texel, 1u + j * view.samples + i)).xy);
+      vec2 uv = uv_at(hit, (vec2(i, j) + jitter) / float(view.samples) - 0.5);
+      sum += kappa(normal_at(frame, material, uv), s.normal, incident) *
+             reflectance_at(material, uv, vec2(0.0), vec2(0.0)).diffuse;
+    }
+  }
+  return sum / float(view.samples * view.samples);
 }
 
 Moments empty() {
@@ -68,10 +90,13 @@ Moments reflect_light(View view, ivec2 texel, Surface s) {
   vec3 incident = view.kind == VIEW_DIRECTIONAL ? -view.forward : normalize(view.origin - s.position);
   Moments m = empty();
   m.flux = view_flux(view, uvec2(texel));
-  vec3 reflected = m.flux;
-  if (CONSISTENT != 0u) reflected *= kappa(s.shading_normal, s.normal, incident);
-  m.power_diffuse = reflected * s.diffuse;
-  m.power_specular = reflected * s.specular;
+  m.power_diffuse = m.flux * s.diffuse;
+  m.power_specular = m.flux * s.specular;
+  if (CONSISTENT != 0u) {
+    m.power_diffuse = m.flux * reflected_diffuse(view, texel, s, incident);
+    m.power_specular *= kappa(s.shading_normal, s.normal, incident);
+    if (cosine_ratio(s.shading_normal, s.normal, incident) > KAPPA_MAX) atomicAdd(Counter(BAKE.clamped_at).count, 1u);
+  }
   m.weight = moments_luminance(m.power_diffuse + m.power_specular);
   m.position = s.position;
   m.spread = (step_squared(view, texel, ivec2(1, 0), s) + step_squared(view, texel, ivec2(0, 1), s)) / 12.0;

@@ -4,6 +4,7 @@
 #include "math/kernel_size.h"
 #include "math/sampling.h"
 #include "shader_library.h"
+#include "spirv/test/library/hash.comp.glsl.h"
 #include "spirv/test/library/kernel_size.comp.glsl.h"
 #include "spirv/test/library/sampling.comp.glsl.h"
 #include "spirv/test/library/taps.comp.glsl.h"
@@ -106,6 +107,20 @@ Values warped(Arguments& a) {
   return Values() << Vec3{1.0 * p.layer, 1.0 * p.i, 1.0 * p.j} << p.x * size - p.i << p.y * size - p.j;
 }
 
+LibraryFile hash() {
+  const auto hashed = [](Arguments& a) {
+    const std::uint32_t x = a.take_word(), y = a.take_word();
+    const auto v = pcg3d({x, y, a.take_word()});
+    return Values() << v[0] << v[1] << v[2] << std::ldexp(v[0] >> 8, -24) << std::ldexp(v[1] >> 8, -24);
+  };
+  return {"hash",
+          hash_comp_spv,
+          {{"pcg3d",
+            combinations({words({0, 1, 0xffffffff}), words({0, 77}), words({5, 0x80000000})}),
+            hashed,
+            {}}}};
+}
+
 LibraryFile sampling() {
   const auto fraction = [](Arguments& a) {
     const std::uint64_t numerator = a.take_word(), denominator = a.take_word();
@@ -115,11 +130,6 @@ LibraryFile sampling() {
     const std::uint64_t x = a.take_word(), y = a.take_word(), n = a.take_word();
     return Values() << static_cast<std::uint32_t>(x * y % n);
   };
-  const auto hash = [](Arguments& a) {
-    const std::uint32_t x = a.take_word(), y = a.take_word();
-    const auto v = pcg3d({x, y, a.take_word()});
-    return Values() << v[0] << v[1] << v[2];
-  };
   const auto golden = [](Arguments& a) {  // upper word of the product's lower 64 bits
     return Values() << static_cast<std::uint32_t>(a.take_word() * 0x9E3779B97F4A7C15ull >> 32);
   };
@@ -127,32 +137,29 @@ LibraryFile sampling() {
     const interop::PointSet s = take_set(a);
     const std::uint32_t i = a.take_word();
     const auto bits = point_bits(s, i);
-    const auto p = vsgl::point(s, i);
-    return Values() << bits[0] << bits[1] << p[0] << p[1];
+    return Values() << bits[0] << bits[1];
   };
-  return {
-      "sampling",
-      sampling_comp_spv,
-      {{"fraction_bits",
-        combinations({words({0, 1, 1000, 524286}), words({524287, 1048576, 2097152})}),
-        fraction,
-        {}},
-       {"multiply_mod",
-        combinations({words({0, 1, 77777, 900000}), words({3, 1023, 524287}), words({900001, 1048576})}),
-        product,
-        {}},
-       {"pcg3d", combinations({words({0, 1, 0xffffffff}), words({0, 77}), words({5, 0x80000000})}), hash, {}},
-       {"golden_bits", words({0, 1, 2, 1000, 1048575}), golden, {}},
-       {"point_bits", point_sets(), point, {0, 1e-12}},
-       {"warp_choose",
-        combinations({numbers({0, 0.3, 2}), numbers({0.5, 7}), numbers({0.01, 0.2, 0.9})}),
-        choose,
-        {1e-5, 1e-6}},
-       {"warp_texel",
-        combinations({numbers({0.003, 0.21, 0.5003, 0.77, 0.9991}), numbers({0.0021, 0.333, 0.71, 0.9})}),
-        warped,
-        {0, 1e-3}}},
-      appendix()};
+  return {"sampling",
+          sampling_comp_spv,
+          {{"fraction_bits",
+            combinations({words({0, 1, 1000, 524286}), words({524287, 1048576, 2097152})}),
+            fraction,
+            {}},
+           {"multiply_mod",
+            combinations({words({0, 1, 77777, 900000}), words({3, 1023, 524287}), words({900001, 1048576})}),
+            product,
+            {}},
+           {"golden_bits", words({0, 1, 2, 1000, 1048575}), golden, {}},
+           {"point_bits", point_sets(), point, {}},
+           {"warp_choose",
+            combinations({numbers({0, 0.3, 2}), numbers({0.5, 7}), numbers({0.01, 0.2, 0.9})}),
+            choose,
+            {1e-5, 1e-6}},
+           {"warp_texel",
+            combinations({numbers({0.003, 0.21, 0.5003, 0.77, 0.9991}), numbers({0.0021, 0.333, 0.71, 0.9})}),
+            warped,
+            {0, 1e-3}}},
+          appendix()};
 }
 
 LibraryFile kernel_size() {
@@ -218,7 +225,7 @@ LibraryFile kernel_size() {
 }  // namespace
 
 std::vector<LibraryFile> sampling_files() {
-  return {taps(), sampling(), kernel_size()};
+  return {taps(), hash(), sampling(), kernel_size()};
 }
 
 }  // namespace vsgl::test

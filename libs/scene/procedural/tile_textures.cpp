@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "math/srgb.h"
 
 namespace vsgl::scene {
 namespace {
@@ -62,10 +63,6 @@ double height(const TilePattern& pattern, double u, double v) {
   return smooth(std::clamp(edge - 0.5, 0.0, 1.0)) + roughness;
 }
 
-double srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
 std::uint8_t byte(double value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
 }
@@ -104,7 +101,7 @@ std::string tile_colour_png(const TilePattern& pattern) {
     const double grain = 1 + 0.1 * (noise(pattern.seed + 3, u, v, 64) - 0.5);
     const double joint = at.edge < pattern.joint / 2 ? 0.55 : 1;
     const Vec3 linear = pattern.colour * (tile * grain * joint);
-    return Vec3{srgb(linear.x), srgb(linear.y), srgb(linear.z)};
+    return Vec3{srgb_encode(linear.x), srgb_encode(linear.y), srgb_encode(linear.z)};
   });
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/find_method.h"
 #include "math/sampling.h"
 #include "stages/lights/lights.h"
 #include "stages/lights/methods.h"
@@ -65,13 +66,7 @@ const std::vector<LightsMethod>& lights_methods() {
 }
 
 const LightsMethod& lights_method(const std::string& name) {
-  const auto& methods = lights_methods();
-  const auto found =
-      std::find_if(methods.begin(), methods.end(), [&](const LightsMethod& m) { return m.name == name; });
-  if (found != methods.end()) return *found;
-  std::string names;
-  for (const LightsMethod& m : methods) names += (names.empty() ? "" : ", ") + m.name;
-  throw Error(ErrorCode::bad_value, "method: \"" + name + "\" is none of " + names);
+  return find_method(lights_methods(), name);
 }
 
 Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device& device,

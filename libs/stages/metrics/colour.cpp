@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/srgb.h"
+
 namespace vsgl::metrics {
 namespace {
 
@@ -42,8 +44,7 @@ double lab_curve(double t) {
 }  // namespace
 
 double encode_srgb(double linear) {
-  const double x = std::clamp(linear, 0.0, 1.0);
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return srgb_encode(std::clamp(linear, 0.0, 1.0));
 }
 
 Vec3 to_xyz(Vec3 linear_rgb) {

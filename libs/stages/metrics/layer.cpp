@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "image/exposure.h"
 #include "math/vec.h"
 #include "stages/metrics/pairing.h"
 
@@ -81,15 +82,9 @@ std::vector<char> blacken_non_finite(LayerPair& layer) {
 }
 
 double automatic_exposure(const LayerPair& layer) {
-  std::vector<double> values;
-  for (const Colour& c : layer.reference) {
-    const double v = luminance_of(c);
-    if (std::isfinite(v) && v > 0) values.push_back(v);
-  }
-  if (values.empty()) return 0;
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
-  std::nth_element(values.begin(), nth, values.end());
-  return std::log2(0.8 / *nth);
+  std::vector<double> luminances;
+  for (const Colour& c : layer.reference) luminances.push_back(luminance_of(c));
+  return vsgl::automatic_exposure(std::move(luminances));
 }
 
 }  // namespace vsgl::metrics

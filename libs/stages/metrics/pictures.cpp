@@ -6,15 +6,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "stages/metrics/colour.h"
 
 namespace vsgl::metrics {
 namespace {
 
-// The sRGB transfer function (IEC 61966-2-1), to 8 bits.
 std::uint8_t encode(double linear) {
-  const double x = std::clamp(linear, 0.0, 1.0);
-  const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * encoded));
+  return static_cast<std::uint8_t>(std::lround(255 * encode_srgb(linear)));
 }
 
 // [Ottosson 2020] Oklab to linear sRGB.

@@ -1,6 +1,5 @@
-#include <algorithm>
-
 #include "base/error.h"
+#include "base/find_method.h"
 #include "interop/sampling.h"
 #include "math/sampling.h"
 #include "stages/pdf/methods.h"
@@ -33,16 +32,6 @@ void check_gbuffer(const PdfMethod& method, const Rsm& rsm, const GBuffer* gbuff
   if (length(gbuffer->anchor - rsm.anchor) > anchor_tolerance * rsm.scene_radius)
     throw Error(ErrorCode::invalid_data,
                 "G-buffer: anchor differs from the RSM's; bake both from the same scene");
-}
-
-const PdfMethod& find_method(const std::string& name) {
-  const auto& methods = pdf_methods();
-  const auto found =
-      std::find_if(methods.begin(), methods.end(), [&](const PdfMethod& m) { return m.name == name; });
-  if (found != methods.end()) return *found;
-  std::string names;
-  for (const PdfMethod& m : methods) names += (names.empty() ? "" : ", ") + m.name;
-  throw Error(ErrorCode::bad_value, "method: \"" + name + "\" is none of " + names);
 }
 
 double mean(const TexelValues& values) {
@@ -100,7 +89,7 @@ const std::vector<PdfMethod>& pdf_methods() {
 
 Pdf build_pdf(const Rsm& rsm, const GBuffer* gbuffer, const PdfParams& params, gpu::Device& device,
               Report& report) {
-  const PdfMethod& method = find_method(params.method);
+  const PdfMethod& method = find_method(pdf_methods(), params.method);
   check_params(params);
   check_gbuffer(method, rsm, gbuffer);
   const TexelValues flux = flux_values(rsm, gbuffer, params, device, report);

@@ -4,20 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "base/error.h"
+#include "math/srgb.h"
 
 namespace vsgl {
 namespace {
 
 using Texel = std::array<float, 4>;
-
-// IEC 61966-2-1.
-float srgb_decode(float c) {
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
-float srgb_encode(float c) {
-  return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-}
 
 struct Level {
   int width, height;
@@ -80,13 +72,7 @@ int mip_levels(int width, int height) {
 }
 
 std::vector<std::uint32_t> build_mip_chain(const scene::Texture& texture) {
-  const std::size_t expected =
-      std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
-  if (expected == 0 || texture.rgba.size() != expected) {
-    throw Error(ErrorCode::texture_unreadable,
-                "texture \"" + texture.name + "\": " + std::to_string(texture.rgba.size()) + " bytes for " +
-                    std::to_string(texture.width) + "x" + std::to_string(texture.height) + " texels");
-  }
+  texture.require_whole();
   std::vector<std::uint32_t> words;
   Level level = decode(texture);
   append_encoded(level, texture.srgb, words);

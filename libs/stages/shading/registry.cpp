@@ -1,6 +1,5 @@
-#include <algorithm>
-
 #include "base/error.h"
+#include "base/find_method.h"
 #include "stages/shading/methods.h"
 #include "stages/shading/shading.h"
 
@@ -57,18 +56,14 @@ const std::vector<ShadingMethod>& shading_methods() {
 
 Indirect shade(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                const ShadingParams& params, gpu::Device& device, Report& report) {
-  const auto& methods = shading_methods();
-  const auto method = std::find_if(methods.begin(), methods.end(),
-                                   [&](const ShadingMethod& m) { return m.name == params.method; });
-  if (method == methods.end())
-    throw Error(ErrorCode::bad_value, "method: \"" + params.method + "\" is none of vpl, vsgl, vsgl-2014");
+  const ShadingMethod& method = find_method(shading_methods(), params.method);
   if (params.specular_lobe != "auto" && params.specular_lobe != "asg")
     throw Error(ErrorCode::bad_value, "specular_lobe: \"" + params.specular_lobe + "\" is none of auto, asg");
   require_range("clamp", params.clamp, 1);
   require_range("cbr", params.cbr, 1);
   require_same_anchor("lights", lights.anchor, gbuffer);
   if (visibility) std::visit([&](const auto& v) { check_visibility(v, gbuffer, lights); }, *visibility);
-  return method->run(gbuffer, lights, visibility, params, device, report);
+  return method.run(gbuffer, lights, visibility, params, device, report);
 }
 
 }  // namespace vsgl

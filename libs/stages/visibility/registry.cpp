@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/find_method.h"
 #include "stages/visibility/ism.h"
 #include "stages/visibility/raytraced.h"
 #include "stages/visibility/visibility.h"
@@ -64,13 +64,7 @@ const std::vector<VisibilityMethod>& visibility_methods() {
 }
 
 const VisibilityMethod& visibility_method(const std::string& name) {
-  const auto& methods = visibility_methods();
-  const auto found =
-      std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
-  if (found != methods.end()) return *found;
-  std::string names;
-  for (const auto& m : methods) names += (names.empty() ? "" : ", ") + m.name;
-  throw Error(ErrorCode::bad_value, "method: \"" + name + "\" is none of " + names);
+  return find_method(visibility_methods(), name);
 }
 
 Visibility build_visibility(const scene::Scene& scene, const Lights& lights, const GBuffer* gbuffer,

@@ -21,30 +21,22 @@ void call() {
   switch (FUNCTION) {
     case 0u: put(fraction_bits(take_uint(), take_uint())); break;
     case 1u: put(multiply_mod(take_uint(), take_uint(), take_uint())); break;
-    case 2u: {
-      uvec3 v = pcg3d(uvec3(take_uint(), take_uint(), take_uint()));
-      put(v.x);
-      put(v.y);
-      put(v.z);
-      break;
-    }
-    case 3u: put(golden_bits(take_uint())); break;
-    case 4u: {
+    case 2u: put(golden_bits(take_uint())); break;
+    case 3u: {
       PointSet set = take_set();
       uvec2 bits = point_bits(set, take_uint());
       put(bits.x);
       put(bits.y);
-      put(point_of_bits(bits));
       break;
     }
-    case 5u: {
+    case 4u: {
       vec2 weights = take2();
       float u = take();
       put(float(warp_choose(weights.x, weights.y, u)));
       put(u);
       break;
     }
-    case 6u: {
+    case 5u: {
       vec2 point = take2();
       uint layer = warp_layer(LAYERS, TOP, point.x);
       put(vec3(float(layer), vec2(warp_texel(layer, TOP, point))));

@@ -165,20 +165,42 @@ TEST(NormalMap, BendsTowardsTheTangentAndBitangent) {
   EXPECT_NEAR(static_cast<double>(s.shading_normal.y), -0.5, 0.01);
 }
 
-// Texels far wider than the map's, whose normals lean 30 degrees to one side and the other: their mean
-// reflects what they reflect together, and their lobes together are a wider one.
-TEST(NormalMap, NormalsThatAreFilteredAwayStillCount) {
+// Pixels and texels far wider than the map's, whose normals lean 30 degrees to one side and the other.
+scene::Scene fine_bumps() {
   scene::Scene scene = bent_plane(0, 20);
   scene.textures[0] = test::stripes(2, 2, {{191, 128, 238, 255}, {64, 128, 238, 255}});
   for (scene::Vertex& v : scene.instances[0].vertices) v.uv = {10000 * v.uv[0], 10000 * v.uv[1]};
-  const Rsm rsm = bake(scene, 64);
-  const interop::Surface& s = rsm.layers[0].surface[kMiddle];
-  const interop::Moments& m = rsm.layers[0].pyramid[kMiddle];
+  scene.camera.tan_x = scene.camera.tan_y = 1;
+  return scene;
+}
+
+// Their mean reflects what they reflect together, and their lobes together are a wider one.
+TEST(NormalMap, TheCameraSeesTheMeanOfFilteredNormals) {
+  const interop::Surface s = test::see(fine_bumps()).pixels[64 * 24 + 32];
   const double cosine = std::cos(std::numbers::pi / 6);
   EXPECT_NEAR(length(to_double(s.shading_normal) - to_double(s.normal)), 0, 0.01);
-  EXPECT_NEAR(static_cast<double>(m.power_diffuse.x / m.flux.x), 0.5 * cosine, 0.005);
-  EXPECT_NEAR(static_cast<double>(m.power_specular.x / m.flux.x), 0.25, 0.002);
+  EXPECT_NEAR(static_cast<double>(s.diffuse.x), 0.5 * cosine, 0.005);
   EXPECT_NEAR(static_cast<double>(s.alpha), std::sqrt(0.2 * 0.2 + 2 * (1 / cosine - 1)), 0.01);
+}
+
+// What the lit texels send on together is the mean over the map, interpolated between its texels as at full
+// resolution: of cos(atan(x / cos 30)) over -1/2 < x < 1/2.
+TEST(NormalMap, TheLightSumsOverNormals) {
+  const Rsm rsm = bake(fine_bumps(), 64);
+  const RsmLayer& layer = rsm.layers[0];
+  double flux = 0, diffuse = 0, specular = 0;
+  for (std::size_t i = 0; i < layer.surface.size(); ++i) {
+    const interop::Moments& m = layer.pyramid[i];
+    flux += static_cast<double>(m.flux.x);
+    diffuse += static_cast<double>(m.power_diffuse.x);
+    specular += static_cast<double>(m.power_specular.x);
+    if (layer.surface[i].id != interop::NO_INSTANCE) {
+      ASSERT_FLOAT_EQ(layer.surface[i].alpha, 0.2f);
+    }
+  }
+  const double cosine = std::sqrt(0.75), mean = 2 * cosine * std::asinh(0.5 / cosine);
+  EXPECT_NEAR(diffuse / flux, 0.5 * mean, 0.002);
+  EXPECT_NEAR(specular / flux, 0.25 * mean, 0.004);
 }
 
 TEST(NormalMap, ConsistentPowerCarriesTheRatioOfCosines) {

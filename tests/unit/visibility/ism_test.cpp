@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "../synthetic_scene.h"
 #include "base/error.h"
 #include "math/frame.h"
 #include "math/octahedral.h"
+#include "room.h"
 #include "stages/visibility/shadow_lookup.h"
 #include "stages/visibility/visibility.h"
 
@@ -30,15 +30,6 @@ ShadowMaps build(const scene::Scene& scene, const std::vector<interop::Light>& l
                  const VisibilityParams& params = {}) {
   Report report;
   return shadow_maps(scene, make_lights(scene, lights), params, device(), report);
-}
-
-const Vec3 room_low{-1, -1, 0}, room_high{1, 1, 2};
-
-scene::Scene room() {
-  scene::Scene scene;
-  scene.radius = std::sqrt(6.0);
-  add_box(scene, room_low, room_high);
-  return scene;
 }
 
 // A disk halfway between the floor and the ceiling.

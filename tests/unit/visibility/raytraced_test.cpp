@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "../expect_error.h"
-#include "../synthetic_scene.h"
+#include "room.h"
 #include "stages/visibility/visibility.h"
 #include "trace/tracer.h"
 
@@ -13,15 +13,6 @@ namespace vsgl {
 namespace {
 
 using namespace vsgl::test;
-
-const Vec3 room_low{-1, -1, 0}, room_high{1, 1, 2};
-
-scene::Scene room() {
-  scene::Scene scene;
-  scene.radius = std::sqrt(6.0);
-  add_box(scene, room_low, room_high);
-  return scene;
-}
 
 interop::Surface pixel_at(Vec3 position, Vec3 normal) {
   interop::Surface s;

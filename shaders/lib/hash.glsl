@@ -1,0 +1,21 @@
+// Hashed words, and points in the unit square from words. Twin: libs/math/sampling.h.
+#ifndef VSGL_LIB_HASH_GLSL
+#define VSGL_LIB_HASH_GLSL
+
+// [Jarzynski 2020] PCG3D: a hash of three words to three words.
+uvec3 pcg3d(uvec3 v) {
+  v = v * 1664525u + 1013904223u;
+  v.x += v.y * v.z;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  v ^= v >> 16u;
+  v.x += v.y * v.z;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  return v;
+}
+
+// To [0, 1), exactly: the upper 24 bits.
+vec2 point_of_bits(uvec2 bits) { return vec2(bits >> 8u) * exp2(-24.0); }
+
+#endif
