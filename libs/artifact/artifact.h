@@ -13,6 +13,7 @@
 
 #include "artifact/pyramid.h"
 #include "base/provenance.h"
+#include "interop/cluster.h"
 #include "interop/light.h"
 #include "interop/model.h"
 #include "interop/moments.h"
@@ -72,15 +73,18 @@ struct Pdf {
 void write(const std::filesystem::path& path, const Pdf& pdf, const Provenance& provenance);
 Pdf read_pdf(const std::filesystem::path& path);
 
-// Virtual lights. `anchor` as in the RSM.
+// Virtual lights, or a tree of them: all nodes, level by level from the root. `anchor` as in the RSM.
 struct Lights {
-  std::string method;  // vpl | fis-2014 | fis-2016 | texels
+  std::string method;  // vpl | fis-2014 | fis-2016 | texels | tree
   Vec3 anchor;
   double scene_radius = 1;
   int requested = 0;  // samples drawn; lights without power are dropped
   std::vector<interop::Light> lights;
+  std::vector<std::uint32_t>
+      levels;  // of a tree: first light of each level, and the number of lights; empty: a list
 
   bool has_specular() const;
+  bool is_tree() const { return !levels.empty(); }
 };
 void write(const std::filesystem::path& path, const Lights& lights, const Provenance& provenance);
 Lights read_lights(const std::filesystem::path& path);
@@ -124,8 +128,38 @@ struct VisibilityBits {
 void write(const std::filesystem::path& path, const VisibilityBits& bits, const Provenance& provenance);
 VisibilityBits read_visibility_bits(const std::filesystem::path& path);
 
-// How the lights are seen: what ismap writes and shade looks up. `read_visibility` tells them apart by schema.
-using Visibility = std::variant<ShadowMaps, VisibilityBits>;
+// The nodes of a light tree that each tile of an image needs, as light-cut chooses them, and which of a
+// tile's pixels see them, where ismap has found that out.
+struct Cut {
+  struct Tile {
+    std::uint32_t first = 0, count = 0;  // entries of this tile
+    float error = 0;                     // estimated relative error (RMS over the tile) of what was cut off
+  };
+  int width = 0,
+      height = 0;  // of the image; tiles of interop::TILE pixels a side, row by row, cut off at its edges
+  Vec3 anchor;
+  int lights = 0;    // of the tree
+  double error = 0;  // that was aimed at, relative
+  std::vector<Tile> tiles;
+  std::vector<std::uint32_t> nodes;  // of every entry: the light's index
+  std::vector<std::uint32_t>
+      masks;  // of every entry: which mask, 0: all pixels see the node. Empty: visibility is not known
+  std::vector<std::uint32_t> mask_words;  // MASK_WORDS a mask, 1 = visible; mask 0 has all bits set
+
+  int columns() const {
+    return (width + static_cast<int>(interop::TILE) - 1) / static_cast<int>(interop::TILE);
+  }
+  int rows() const {
+    return (height + static_cast<int>(interop::TILE) - 1) / static_cast<int>(interop::TILE);
+  }
+  bool has_visibility() const { return !mask_words.empty(); }
+};
+void write(const std::filesystem::path& path, const Cut& cut, const Provenance& provenance);
+Cut read_cut(const std::filesystem::path& path);
+
+// How the lights are seen: what ismap writes and shade looks up. `read_visibility` tells them apart by
+// schema.
+using Visibility = std::variant<ShadowMaps, VisibilityBits, Cut>;
 void write(const std::filesystem::path& path, const Visibility& visibility, const Provenance& provenance);
 Visibility read_visibility(const std::filesystem::path& path);
 
@@ -141,7 +175,8 @@ struct Indirect {
 void write(const std::filesystem::path& path, const Indirect& indirect, const Provenance& provenance);
 Indirect read_indirect(const std::filesystem::path& path);
 
-// Ground truth: `radiance` without its cancellation layer, and the variance of the mean of its indirect light.
+// Ground truth: `radiance` without its cancellation layer, and the variance of the mean of its indirect
+// light.
 struct Reference {
   Indirect radiance;
   std::vector<interop::vec3> variance;  // per channel, (W/(m^2 sr))^2, of diffuse + specular

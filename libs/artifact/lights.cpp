@@ -32,6 +32,8 @@ constexpr Field kFields[] = {
     {"level", "V", offsetof(Light, level), Range::non_negative},
     {"texel", "I", offsetof(Light, texel)},
     {"layer", "I", offsetof(Light, layer)},
+    {"lobe_variance", "V", offsetof(Light, lobe_variance), Range::non_negative, true},
+    {"children", "I", offsetof(Light, children)},
 };
 
 // A lobe without power has no axis.
@@ -46,6 +48,26 @@ void check_directions(const ExrFile& file, const ExrPart& part, const std::vecto
     if (light.ndf != interop::NDF_NONE && light.alpha < interop::ALPHA_MIN)
       fail_at(file, part, "alpha.V", i, std::to_string(light.alpha) + " is not 1e-3..1");
   }
+}
+
+// Levels follow one another: the children of a level's lights, four each, in order.
+std::vector<std::uint32_t> tree_levels(const ExrFile& file, const ExrPart& part,
+                                       const std::vector<Light>& lights) {
+  std::vector<std::uint32_t> levels{0};
+  std::uint32_t end = lights.empty() ? 0 : 1;
+  for (std::uint32_t i = 0, next = end; i < lights.size(); ++i) {
+    if (i == end) {
+      if (next == end) fail_at(file, part, "children.I", i - 1, "no light has this one among its children");
+      levels.push_back(end);
+      end = next;
+    }
+    if (lights[i].children == 0) continue;
+    if (lights[i].children != next || next + 4 > lights.size())
+      fail_at(file, part, "children.I", i, "children do not follow one another");
+    next += 4;
+  }
+  levels.push_back(end);
+  return levels;
 }
 
 }  // namespace
@@ -91,6 +113,7 @@ Lights read_lights(const std::filesystem::path& path) {
   unpack(kFields, Structs(std::span(out.lights)), file, part, 0, 1, rows, with_specular);
   out.lights.resize(static_cast<std::size_t>(count));
   check_directions(file, part, out.lights);
+  if (out.method == "tree") out.levels = tree_levels(file, part, out.lights);
   return out;
 }
 

@@ -6,7 +6,10 @@
 VSGL_INTEROP_BEGIN
 
 // One light: a Gaussian footprint with two emission lobes (VSGL), and the representative surface point that
-// makes it a VPL. For a VPL variance = 0 and the lobes are unused.
+// makes it a VPL. For a VPL variance = 0 and the lobes are unused. A node of a light tree (method "tree") is
+// a cluster of texels: its alpha, shading_normal and incident are those of the cluster's mean, weighted by
+// the specular power (without any, by all of the power); origin and texel are the texel nearest to the mean
+// position.
 struct Light {
   vec3 position;            // mean, m, relative to the anchor
   float variance;           // per axis (planar), sigma^2 = E|y - mean|^2 / 2, m^2
@@ -26,8 +29,12 @@ struct Light {
   uint texel;            // row-major index of the sampled texel in its RSM layer
   vec3 origin;           // representative point on a surface (the sampled texel), m, relative to the anchor
   uint layer;            // which RSM layer (light, cube face)
+  float lobe_variance;   // of the half vectors of the cluster's specular lobes, beyond those of alpha: 1 -
+                        // |mean shading normal|^2 plus variance / (2 distance to the source^2); 0 for a
+                        // single point. Added to alpha^2
+  uint children;  // in a light tree: index of the first of four; 0: a leaf
 };
-VSGL_CHECK_SIZE(Light, 144)
+VSGL_CHECK_SIZE(Light, 152)
 
 VSGL_INTEROP_END
 #endif

@@ -100,6 +100,20 @@ double visibility_of(const VisibilityBits& bits, std::size_t light, std::size_t 
   return bits.visible(light, pixel) ? 1 : 0;
 }
 
+double visibility_of(const Cut& cut, std::size_t light, std::size_t pixel) {
+  const auto width = static_cast<std::size_t>(cut.width), x = pixel % width, y = pixel / width;
+  const std::size_t bit = y % interop::TILE * interop::TILE + x % interop::TILE;
+  const Cut::Tile& tile =
+      cut.tiles[y / interop::TILE * static_cast<std::size_t>(cut.columns()) + x / interop::TILE];
+  for (std::size_t i = tile.first; i < tile.first + tile.count; ++i)
+    if (cut.nodes[i] == light)
+      return cut.mask_words[cut.masks[i] * interop::MASK_WORDS + bit / 32] >> bit % 32 & 1U;
+  return 0;
+}
+
+std::size_t light_count(const Cut& cut) {
+  return static_cast<std::size_t>(cut.lights);
+}
 std::size_t light_count(const ShadowMaps& maps) {
   return maps.views.size();
 }

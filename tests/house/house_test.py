@@ -12,8 +12,8 @@ SOURCES = {".h", ".cpp", ".glsl", ".comp", ".vert", ".frag"}
 CITATION_KEY = r"[A-Z][A-Za-z]+ (?:19|20)\d\d[a-z]?"
 
 # Which rank a library has; it may include its own headers and those of lower ranks.
-RANKS = {"base": 0, "math": 1, "image": 2, "scene": 2, "gpu": 2, "pyramid": 3, "report": 3, "trace": 3, "artifact": 4, "reference": 5, "pipeline": 6}
-STAGE_RANK = 5
+RANKS = {"base": 0, "math": 1, "image": 2, "scene": 2, "gpu": 2, "pyramid": 3, "report": 3, "trace": 3, "artifact": 4, "cluster": 5, "reference": 6, "pipeline": 7}
+STAGE_RANK = 6
 
 
 def sources(root, *folders):
@@ -49,7 +49,7 @@ def rank_of(library):
 
 
 def backward_includes(root):
-    """(file, header) of every #include that runs against the arrows base <- math <- {image, scene <- trace, gpu <- pyramid} <- artifact <-
+    """(file, header) of every #include that runs against the arrows base <- math <- {image, scene <- trace, gpu <- pyramid} <- artifact <- cluster <-
     {stages/*, reference} <- pipeline."""
     found = []
     for path in sources(root, "libs"):

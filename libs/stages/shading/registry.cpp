@@ -37,6 +37,16 @@ void check_visibility(const VisibilityBits& bits, const GBuffer& gbuffer, const 
                                            std::to_string(gbuffer.height) + "; trace them for this G-buffer");
 }
 
+void check_visibility(const Cut& cut, const GBuffer& gbuffer, const Lights& lights) {
+  require_same_anchor("cut", cut.anchor, gbuffer);
+  require_light_count("cut", static_cast<std::size_t>(cut.lights), lights);
+  if (cut.width != gbuffer.width || cut.height != gbuffer.height)
+    throw Error(ErrorCode::wrong_size, "cut: of " + std::to_string(cut.width) + "x" +
+                                           std::to_string(cut.height) + " pixels for a G-buffer of " +
+                                           std::to_string(gbuffer.width) + "x" +
+                                           std::to_string(gbuffer.height) + "; make it for this G-buffer");
+}
+
 }  // namespace
 
 void require_same_anchor(const std::string& what, Vec3 anchor, const GBuffer& gbuffer) {

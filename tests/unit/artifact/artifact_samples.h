@@ -108,7 +108,11 @@ inline Pdf sample_pdf() {
 
 inline Lights sample_lights(int count, bool specular) {
   Counter c;
-  Lights out{"fis-2016", {1, 2, 3}, 9, count + 3, {}};
+  Lights out;
+  out.method = "fis-2016";
+  out.anchor = {1, 2, 3};
+  out.scene_radius = 9;
+  out.requested = count + 3;
   for (int i = 0; i < count; ++i) {
     interop::Light l{};
     l.position = c.vec3();

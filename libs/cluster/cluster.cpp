@@ -1,0 +1,65 @@
+#include "cluster/cluster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "math/interop_vec.h"
+#include "math/lobe.h"
+#include "math/microfacet.h"
+
+namespace vsgl {
+namespace {
+
+using interop::Cluster;
+using interop::Light;
+
+bool has_power(interop::vec3 power) {
+  return power.x + power.y + power.z > 0;
+}
+
+double normal_sharpness(const Light& light) {
+  const double deficit = static_cast<double>(light.normal_deficit);
+  return lobe_sharpness(std::sqrt(std::max(1 - deficit, 0.0)), deficit);
+}
+
+void set_specular(Cluster& c, const Light& light) {
+  const double alpha2 = static_cast<double>(light.alpha) * static_cast<double>(light.alpha);
+  const double cosine = std::max(dot(to_double(light.shading_normal), to_double(light.incident)), cos_min);
+  const double peak = light.ndf == interop::NDF_GGX ? std::numbers::inv_pi : 1;
+  c.incident_masking = static_cast<float>(1 + smith_lambda(light.ndf, alpha2, cosine));
+  c.shading_normal = light.shading_normal;
+  c.incident_scale = static_cast<float>(peak / (4 * cosine));
+  c.incident = light.incident;
+  c.alpha2 = static_cast<float>(std::min(alpha2 + static_cast<double>(light.lobe_variance), 1.0));
+  c.specular = light.power_specular;
+  c.masking_alpha2 = static_cast<float>(alpha2);
+  c.ndf = light.ndf;
+}
+
+Cluster pack(const Light& light, std::uint32_t index, double variance_floor) {
+  Cluster c{};
+  c.light = index;
+  c.children = light.children;
+  if (!has_power(light.power_diffuse) && !has_power(light.power_specular)) return c;
+  c.position = light.position;
+  c.inverse_variance = static_cast<float>(1 / std::max(static_cast<double>(light.variance), variance_floor));
+  c.normal = light.normal;
+  c.normal_sharpness = static_cast<float>(normal_sharpness(light));
+  c.diffuse = to_float(std::numbers::inv_pi * to_double(light.power_diffuse));
+  if (light.ndf != interop::NDF_NONE && has_power(light.power_specular)) set_specular(c, light);
+  return c;
+}
+
+}  // namespace
+
+std::vector<Cluster> pack_clusters(const Lights& lights) {
+  const double floor = 1e-6 * lights.scene_radius * 1e-6 * lights.scene_radius;
+  std::vector<Cluster> clusters(lights.lights.size());
+#pragma omp parallel for
+  for (std::size_t i = 0; i < clusters.size(); ++i)
+    clusters[i] = pack(lights.lights[i], static_cast<std::uint32_t>(i), floor);
+  return clusters;
+}
+
+}  // namespace vsgl
