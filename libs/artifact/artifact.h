@@ -145,6 +145,9 @@ struct Cut {
   std::vector<std::uint32_t>
       masks;  // of every entry: which mask, 0: all pixels see the node. Empty: visibility is not known
   std::vector<std::uint32_t> mask_words;  // MASK_WORDS a mask, 1 = visible; mask 0 has all bits set
+  // Visible share of each pixel's light, 0..1: multiplies all that the entries shade, besides their masks. Row
+  // by row, 1 for background; empty: 1 everywhere. A cut with it has masks, too.
+  std::vector<float> visibility;
 
   int columns() const {
     return (width + static_cast<int>(interop::TILE) - 1) / static_cast<int>(interop::TILE);

@@ -31,6 +31,7 @@ ExrPart make_cut_part(const std::string& name, const Cut& cut, const Provenance&
   part.attributes["cut.error"] = cut.error;
   part.attributes["cut.entries"] = static_cast<int>(cut.nodes.size());
   part.attributes["cut.masks"] = static_cast<int>(cut.mask_words.size() / interop::MASK_WORDS);
+  part.attributes["cut.pixels"] = cut.visibility.empty() ? 0 : 1;
   part.compression = ExrCompression::zip;
   return part;
 }
@@ -65,6 +66,8 @@ std::vector<std::uint32_t> unwrapped(const ExrFile& file, const ExrPart& part, c
 std::string mask_channel(std::uint32_t word) {
   return "mask." + std::to_string(word);
 }
+
+constexpr Field kPixels[] = {{"visibility", "V", 0, Range::unit_interval}};
 
 // Tiles must follow one another and use all entries.
 void check_tiles(const ExrFile& file, const ExrPart& part, const Cut& cut) {
@@ -105,6 +108,11 @@ void write(const std::filesystem::path& path, const Cut& cut, const Provenance& 
     masks.levels = {rows_of(std::move(words))};
     parts.push_back(std::move(masks));
   }
+  if (!cut.visibility.empty()) {
+    ExrPart pixels = make_cut_part("pixels", cut, provenance);
+    pixels.levels = {pack(kPixels, Structs(std::span(cut.visibility)), cut.width, cut.height, false)};
+    parts.push_back(std::move(pixels));
+  }
   write_parts(path, std::move(parts));
 }
 
@@ -130,6 +138,11 @@ Cut artifact::unpack_cut(const ExrFile& file) {
       const std::vector<std::uint32_t> words = unwrapped(file, part, mask_channel(w), masks);
       for (std::size_t i = 0; i < masks; ++i) out.mask_words[i * interop::MASK_WORDS + w] = words[i];
     }
+  }
+  if (int_in(file, tiles, "cut.pixels", 0, 1) == 1) {
+    out.visibility.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
+    unpack(kPixels, Structs(std::span(out.visibility)), file, file.part("pixels"), 0, out.width, out.height,
+           false);
   }
   check_tiles(file, tiles, out);
   check_entries(file, entries, out);
