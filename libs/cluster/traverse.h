@@ -24,9 +24,9 @@ struct TileSamples {
 TileSamples tile_samples(const GBuffer& gbuffer, int tile);
 
 struct CutCriterion {
-  double threshold = 0.003;       // eps: accepted values and differences, relative to the sample's light
-  double floor = 0;               // radiance added to the sample's light (2% of the image's mean), W/(m^2 sr)
-  std::uint32_t start_level = 3;  // of the tree: its nodes are all evaluated
+  float threshold = 0.003F;  // eps: accepted values and differences, relative to the sample's light
+  float floor = 0;           // radiance added to the sample's light (2% of the image's mean), W/(m^2 sr)
+  std::uint32_t start_level = 3;  // of the tree: its nodes, and the leaves above, are all evaluated
 };
 
 // Which samples see a node: bit k for sample k. Called once for each node that the traversal evaluates.
@@ -39,29 +39,32 @@ struct TileCut {
     std::uint32_t visible = 0;  // bit k: sample k sees it
     float share = 0;  // the largest share, over the samples, that its unshadowed light has in all light
   };
-  std::vector<Entry> entries;   // nodes that no sample sees are among them: other pixels may
+  // Each lit leaf is below exactly one of them. In depth-first order; nodes that no sample sees are among
+  // them: other pixels may.
+  std::vector<Entry> entries;
   double error = 0;             // estimate, relative, RMS over the samples
   std::size_t evaluations = 0;  // nodes times samples
 };
 
-// Keeps what it needs of a tree and a G-buffer (both must outlive it). cut() may be called from many threads;
-// its result depends on nothing else.
+// A cut is chosen by luminance. Both inputs must outlive it; clusters: of pack_clusters(lights). cut() may be
+// called from many threads; its result depends on nothing else, and is the same on every processor.
 class TreeTraversal {
  public:
+  // Throws invalid_data when `lights` is not a tree.
   TreeTraversal(const GBuffer& gbuffer, const Lights& lights, const std::vector<interop::Cluster>& clusters);
-  TileCut cut(int tile, const TileSamples& samples, const CutCriterion& criterion,
+
+  // For a relative error of the image (docs/shading.md has the calibration): threshold, floor from the mean
+  // unshadowed light on some of the pixels, and the level to start at.
+  CutCriterion criterion(double error) const;
+
+  TileCut cut(const TileSamples& samples, const CutCriterion& criterion,
               const NodeVisibility& visibility) const;
-  // Mean unshadowed radiance of the image (luminance), from the nodes of the start level on some of its
-  // pixels.
-  double mean_radiance(std::uint32_t start_level) const;
 
  private:
   const GBuffer& gbuffer_;
-  const Lights& lights_;
   const std::vector<interop::Cluster>& clusters_;
+  std::vector<std::uint32_t> levels_;
+  bool sharp_ = false;  // some specular lobe, lit or seen, is narrow
 };
-
-// eps for a relative error E of the image (docs/shading.md has the calibration), and the level to start at.
-CutCriterion criterion_for(double error, const Lights& lights);
 
 }  // namespace vsgl
