@@ -33,6 +33,8 @@ VSGL_CHECK_SIZE(Cluster, 112)
 VSGL_CONST float CLUSTER_FLAT = 200.0f;
 // From this squared distance on, in units of sigma^2, a cluster lights a diffuse receiver like a point.
 VSGL_CONST float CLUSTER_POINT = 100.0f;
+// A specular receiver besides asks for this multiple of its lobe's sharpness (across the plane of incidence).
+VSGL_CONST float CLUSTER_POINT_SPECULAR = 5.0f;
 
 // Tiles of a cut: TILE x TILE pixels, from the top-left corner of the image; pixel (x, y) of a tile has bit y
 // TILE + x of a mask.

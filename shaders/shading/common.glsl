@@ -10,7 +10,6 @@ layout(local_size_x = SHADING_GROUP) in;
 layout(constant_id = SHADING_EMISSION_ID) const uint EMISSION = NDF_NONE;
 layout(constant_id = SHADING_SHADOWS_ID) const uint SHADOWS = VISIBILITY_NONE;
 layout(constant_id = SHADING_CANCEL_ID) const uint CANCEL = 0;
-layout(constant_id = SHADING_ASG_ID) const uint ASG = 0;
 layout(constant_id = SHADING_PIXELS_ID) const uint PIXELS = 8;
 
 layout(scalar, binding = 0) readonly buffer Receivers { Surface surfaces[]; };

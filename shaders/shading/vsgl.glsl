@@ -5,33 +5,8 @@
 #define VSGL_SHADING_VSGL_GLSL
 
 #include "shading/emission.glsl"
-#include "kernels/fused.glsl"
+#include "shading/receive.glsl"
 #include "shading/shadow.glsl"
-
-// The specular lobe's answer to the normalised SG, 1/sr.
-float specular_answer(Receiver r, Incoming incoming) {
-  if (ASG != 0) return specular_vmf_asg(r.lobe, incoming.axis, incoming.sharpness);
-  vec3 light = specular_local(r.lobe, incoming.axis);
-  if (r.lobe.ndf == NDF_GGX) return fast_specular_ggx(r.lobe, light, incoming, r.slope_view);
-  return fast_specular_gaussian(r.lobe, light, incoming);
-}
-
-// One emission lobe: (diffuse, specular) radiance per unit of peak intensity and reflectance.
-vec2 receive(Receiver r, Incoming incoming) {
-  vec2 radiance = vec2(received_cosine(incoming, dot(incoming.axis, r.normal)) * INVERSE_PI, 0.0);
-  if (RECEIVER != NDF_NONE)
-    radiance.y = incoming.amplitude * incoming.phi * (1.0 + incoming.decay) * specular_answer(r, incoming);
-  return radiance;
-}
-
-// How much of the light is above the geometric horizon, beyond what the shading horizon has cut already: 1 where the normals agree.
-// The footprint's edge is a ramp of slope 0.4 in units of its standard deviation, as the normal distribution's at its centre.
-float geometric_horizon(Receiver r, vec3 v, float variance) {
-  float scale = 0.4 * inversesqrt(variance);
-  vec2 heights = scale * vec2(dot(v, r.geometric), dot(v, r.normal));
-  vec2 above = clamp(0.5 + heights, 0.0, 1.0);
-  return min(1.0 + above.x - above.y, 1.0);
-}
 
 // [Tokuyoshi 2014, Sec. 3.3] Weight with which the SG approximation is cancelled: the light's footprint, seen as a lobe, is much
 // sharper than everything it is multiplied with. 0 where bandwidth variance / d2 reaches the threshold, 1 at half of it.
@@ -59,7 +34,7 @@ void add_light(Receiver r, ShadingLight light, inout Sums sums) {
   }
   float lit = visibility(r, light.index);
   float kept = lit;
-  if (BUMPED != 0) kept *= geometric_horizon(r, v, light.variance);
+  if (BUMPED != 0) kept *= geometric_horizon(r, v, light.inverse_variance);
   Transfer exact = Transfer(vec2(0.0), vec2(0.0));
   if (CANCEL != 0) {
     float cancelled = cancellation(r, light, distance2.y);

@@ -1,0 +1,91 @@
+#include "math/fvpl.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "math/interop_vec.h"
+
+namespace vsgl {
+namespace {
+
+using interop::Cluster;
+
+double wide(float x) {
+  return static_cast<double>(x);
+}
+
+bool is_flat(double normal_sharpness) {
+  return normal_sharpness > wide(interop::CLUSTER_FLAT);
+}
+
+}  // namespace
+
+FvplView fvpl_view(Vec3 v, double inverse_variance) {
+  const double d2 = dot(v, v), inverse_d2 = 1 / std::max(d2, 1e-24);
+  return {v * std::sqrt(inverse_d2), d2, inverse_d2, std::min(d2 * inverse_variance, sharpness_max)};
+}
+
+bool fvpl_is_point(double sharpness, double across) {
+  return sharpness > wide(interop::CLUSTER_POINT) &&
+         sharpness > wide(interop::CLUSTER_POINT_SPECULAR) * across;
+}
+
+double fvpl_cosine(double c, double normal_sharpness) {
+  return is_flat(normal_sharpness) ? std::max(c, 0.0) : cosine_mean(c, normal_sharpness);
+}
+
+double fvpl_specular(const Cluster& c, Vec3 w, double inverse_d2, double cosine, double seen) {
+  if (cosine <= 0) return 0;
+  const Vec3 n = to_double(c.shading_normal), h = to_double(c.incident) + w;
+  const double hn = dot(h, n), hh = std::max(dot(h, h), 1e-12);
+  const Vec3 t = h - hn * n;
+  const double alpha2 = std::min(wide(c.alpha2) + inverse_d2 / (2 * wide(c.inverse_variance)), 1.0);
+  const double peak = c.ndf == interop::NDF_GGX ? std::numbers::pi : 1;  // which incident_scale holds
+  const double density = peak * ndf_density(c.ndf, alpha2, dot(t, t) / hh, hn * hn / hh);
+  const double masking = wide(c.incident_masking) + smith_lambda(c.ndf, wide(c.masking_alpha2), cosine);
+  return wide(c.incident_scale) * density * seen / (std::max(cosine, cos_min) * masking);
+}
+
+Vec3 fvpl_emission_diffuse(const Cluster& c, Vec3 u) {
+  return std::max(-dot(u, to_double(c.normal)), 0.0) * to_double(c.diffuse);
+}
+
+Vec3 fvpl_emission_flat(const Cluster& c, Vec3 u, double inverse_d2) {
+  const double seen = std::max(-dot(u, to_double(c.normal)), 0.0);
+  const double cosine = -dot(u, to_double(c.shading_normal));
+  return seen * to_double(c.diffuse) + fvpl_specular(c, -u, inverse_d2, cosine, seen) * to_double(c.specular);
+}
+
+Vec3 fvpl_emission(const Cluster& c, Vec3 u, double inverse_d2) {
+  const double normal_sharpness = wide(c.normal_sharpness);
+  const double seen = fvpl_cosine(-dot(u, to_double(c.normal)), normal_sharpness);
+  const Vec3 emission = seen * to_double(c.diffuse);
+  if (c.ndf == interop::NDF_NONE) return emission;
+  const double cosine = is_flat(normal_sharpness) ? -dot(u, to_double(c.shading_normal)) : seen;
+  return emission + fvpl_specular(c, -u, inverse_d2, cosine, seen) * to_double(c.specular);
+}
+
+FvplReflection fvpl_point(const SpecularReceiver& r, Vec3 u, double inverse_d2) {
+  const double diffuse = std::max(dot(u, r.normal), 0.0) * std::numbers::inv_pi;
+  const Vec3 view{r.sin_view, 0, r.cos_view};
+  const double specular =
+      r.ndf == interop::NDF_NONE
+          ? 0
+          : specular_brdf_cos(r.ndf, std::sqrt(r.alpha2), {0, 0, 1}, view, specular_local(r, u));
+  return {inverse_d2 * diffuse, inverse_d2 * specular};
+}
+
+double fvpl_fluence(double d2, double inverse_variance) {
+  const double sharpness = d2 * inverse_variance;
+  return sharpness > 0.5 ? -std::expm1(-2 * sharpness) / d2 : 2 * phi(-2 * sharpness) * inverse_variance;
+}
+
+FvplReflection fvpl_extended(const SpecularReceiver& r, const FvplView& view, double inverse_variance) {
+  const double fluence = fvpl_fluence(view.d2, inverse_variance);
+  const double diffuse = cosine_mean(dot(view.u, r.normal), view.sharpness) * std::numbers::inv_pi;
+  const double specular = r.ndf == interop::NDF_NONE ? 0 : specular_vmf(r, view.u, view.sharpness);
+  return {fluence * diffuse, fluence * specular};
+}
+
+}  // namespace vsgl

@@ -1,0 +1,63 @@
+// lib/fvpl.glsl in faster forms for inner loops: over common denominators, and with the polynomials of kernels/fused.glsl. What depends on
+// the cluster alone is invariant in a loop over pixels. Each is tested against the library's form.
+#ifndef VSGL_KERNELS_FVPL_GLSL
+#define VSGL_KERNELS_FVPL_GLSL
+
+#include "kernels/fused.glsl"
+#include "lib/fvpl.glsl"
+
+// fvpl_cosine().
+float fast_fvpl_cosine(float c, float normal_sharpness) {
+  float l = clamp(normal_sharpness, SHARPNESS_MIN, CLUSTER_FLAT);
+  float inverse = 1.0 / l;
+  float decayed = fast_expm1(-l);
+  float decay = 1.0 + decayed;
+  float phi = -decayed * inverse;
+  float spread = cosine_integral_2pi(c, decay, phi, inverse, ramp_width(l, inverse)) / (phi * (1.0 + decay));
+  return normal_sharpness > CLUSTER_FLAT ? max(c, 0.0) : spread;
+}
+
+// fvpl_specular(), w = -u. For GGX with 1 + Lambda = (c + s) / (2 c), s = ggx_slope_cosine: one division and one root.
+float fast_fvpl_specular(uint ndf, Cluster c, vec3 u, float inverse_d2, float cosine, float seen) {
+  if (ndf != NDF_GGX) return fvpl_specular(ndf, c, -u, inverse_d2, cosine, seen);
+  vec3 h = c.incident - u;
+  float hh = max(dot(h, h), 1e-8);
+  float hn = dot(h, c.shading_normal);
+  vec3 t = h - hn * c.shading_normal;
+  float alpha2 = min(c.alpha2 + (0.5 / c.inverse_variance) * inverse_d2, 1.0);
+  float q = max(dot(t, t) + alpha2 * hn * hn, alpha2 * hh);
+  float z = max(cosine, 0.0);
+  float below = q * q * ((2.0 * c.incident_masking - 1.0) * z + ggx_slope_cosine(c.masking_alpha2, z));
+  return z > 0.0 ? 2.0 * c.incident_scale * alpha2 * hh * hh * seen / below : 0.0;
+}
+
+// fvpl_emission_flat().
+vec3 fast_fvpl_emission_flat(uint ndf, Cluster c, vec3 u, float inverse_d2) {
+  float seen = max(-dot(u, c.normal), 0.0);
+  float cosine = -dot(u, c.shading_normal);
+  return seen * c.diffuse + fast_fvpl_specular(ndf, c, u, inverse_d2, cosine, seen) * c.specular;
+}
+
+// fvpl_emission().
+vec3 fast_fvpl_emission(uint ndf, Cluster c, vec3 u, float inverse_d2) {
+  float seen = fast_fvpl_cosine(-dot(u, c.normal), c.normal_sharpness);
+  vec3 emission = seen * c.diffuse;
+  if (ndf == NDF_NONE) return emission;
+  float cosine = c.normal_sharpness > CLUSTER_FLAT ? -dot(u, c.shading_normal) : seen;
+  return emission + fast_fvpl_specular(ndf, c, u, inverse_d2, cosine, seen) * c.specular;
+}
+
+// The footprint as light that arrives: fluence fvpl_fluence() = amplitude phi (1 + decay).
+Incoming fvpl_incoming(FvplView view, float inverse_variance) {
+  Incoming light;
+  light.axis = view.u;
+  light.sharpness = max(view.sharpness, SHARPNESS_MIN);
+  light.inverse_sharpness = min(view.inverse_d2 * (1.0 / inverse_variance), 1.0 / SHARPNESS_MIN);
+  light.amplitude = inverse_variance;
+  float decayed = fast_expm1(-light.sharpness);
+  light.decay = 1.0 + decayed;
+  light.phi = -decayed * light.inverse_sharpness;
+  return light;
+}
+
+#endif

@@ -1,0 +1,94 @@
+// Filtered virtual point light (FVPL): a cluster of lit texels that emits with its mean BRDF, seen as a Gaussian footprint. With all
+// moments of a single texel it is the exact virtual point light. docs/mathematics.md derives it.
+// Directions `u` are unit vectors from the receiver to the cluster's mean. Finite for every distance and variance.
+#ifndef VSGL_LIB_FVPL_GLSL
+#define VSGL_LIB_FVPL_GLSL
+
+#include "interop/cluster.h"
+#include "lib/specular_lobe.glsl"
+
+// A cluster as a receiver sees it.
+struct FvplView {
+  vec3 u;            // 0 in the very place of the mean
+  float d2;          // squared distance, m^2
+  float inverse_d2;  // 1/m^2, at most 1e24
+  float sharpness;   // d2 / sigma^2: of the normalised SG about u that stands for the footprint
+};
+
+// v: from the receiver to the mean, m.
+FvplView fvpl_view(vec3 v, float inverse_variance) {
+  float d2 = dot(v, v);
+  float inverse_d = inversesqrt(max(d2, 1e-24));
+  return FvplView(v * inverse_d, d2, inverse_d * inverse_d, min(d2 * inverse_variance, SHARPNESS_MAX));
+}
+
+// Whether the cluster lights the receiver like a point. `across`: of the SpecularReceiver, 0 without a specular lobe.
+bool fvpl_is_point(float sharpness, float across) {
+  return sharpness > CLUSTER_POINT && sharpness > CLUSTER_POINT_SPECULAR * across;
+}
+
+// Mean of the clamped cosine of a direction over the cluster's normals, 0..1; c = direction . mean normal.
+float fvpl_cosine(float c, float normal_sharpness) {
+  return normal_sharpness > CLUSTER_FLAT ? max(c, 0.0) : cosine_mean(c, normal_sharpness);
+}
+
+// Specular BRDF times the cosine `seen` from the light source to `w`, 1/sr: specular_brdf_cos() with what does not depend on `w`
+// hoisted and the lobe widened by the spread of the cluster's half vectors, sigma^2 / (2 d2) of which comes from the directions to the
+// receiver. `cosine`: of w to the specular texels' normals; the masking is that of the surface itself.
+float fvpl_specular(uint ndf, Cluster c, vec3 w, float inverse_d2, float cosine, float seen) {
+  vec3 h = c.incident + w;
+  float hn = dot(h, c.shading_normal);
+  vec3 t = h - hn * c.shading_normal;
+  float inverse = 1.0 / max(dot(h, h), 1e-12);
+  float alpha2 = min(c.alpha2 + 0.5 * inverse_d2 / c.inverse_variance, 1.0);
+  float density = ndf_density(ndf, alpha2, dot(t, t) * inverse, hn * hn * inverse);
+  if (ndf == NDF_GGX) density *= PI;  // which incident_scale holds
+  float masking = c.incident_masking + smith_lambda(ndf, c.masking_alpha2, cosine);
+  return cosine > 0.0 ? c.incident_scale * density * seen / (max(cosine, COS_MIN) * masking) : 0.0;
+}
+
+// Radiant intensity towards the receiver, W/sr, of three classes of clusters.
+// Without specular emission, of parallel normals.
+vec3 fvpl_emission_diffuse(Cluster c, vec3 u) {
+  return max(-dot(u, c.normal), 0.0) * c.diffuse;
+}
+
+// Of parallel normals. The surface is seen with its geometric normal; its specular lobe has a horizon of its own.
+vec3 fvpl_emission_flat(uint ndf, Cluster c, vec3 u, float inverse_d2) {
+  float seen = max(-dot(u, c.normal), 0.0);
+  float cosine = -dot(u, c.shading_normal);
+  return seen * c.diffuse + fvpl_specular(ndf, c, -u, inverse_d2, cosine, seen) * c.specular;
+}
+
+// Any. Where normals spread, their mean cosine stands for the specular texels', too.
+vec3 fvpl_emission(uint ndf, Cluster c, vec3 u, float inverse_d2) {
+  float seen = fvpl_cosine(-dot(u, c.normal), c.normal_sharpness);
+  vec3 emission = seen * c.diffuse;
+  if (ndf == NDF_NONE) return emission;
+  float cosine = c.normal_sharpness > CLUSTER_FLAT ? -dot(u, c.shading_normal) : seen;
+  return emission + fvpl_specular(ndf, c, -u, inverse_d2, cosine, seen) * c.specular;
+}
+
+// Radiance per unit of radiant intensity and of each reflectance, 1/m^2: (diffuse, specular). From a point:
+vec2 fvpl_point(SpecularReceiver r, vec3 u, float inverse_d2) {
+  float diffuse = max(dot(u, r.normal), 0.0) / PI;
+  vec3 view = vec3(r.sin_view, 0.0, r.cos_view);
+  float specular =
+      r.ndf == NDF_NONE ? 0.0 : specular_brdf_cos(r.ndf, sqrt(r.alpha2), vec3(0.0, 0.0, 1.0), view, specular_local(r, u));
+  return inverse_d2 * vec2(diffuse, specular);
+}
+
+// Irradiance over a sphere per unit of radiant intensity, 1/m^2: 1 / d2 far away, at most 2 / sigma^2.
+float fvpl_fluence(float d2, float inverse_variance) {
+  float sharpness = d2 * inverse_variance;
+  return sharpness > 0.5 ? -expm1(-2.0 * sharpness) / max(d2, 1e-36) : 2.0 * phi(-2.0 * sharpness) * inverse_variance;
+}
+
+// From the whole footprint:
+vec2 fvpl_extended(SpecularReceiver r, FvplView view, float inverse_variance) {
+  float diffuse = cosine_mean(dot(view.u, r.normal), view.sharpness) / PI;
+  float specular = r.ndf == NDF_NONE ? 0.0 : specular_vmf(r, view.u, view.sharpness);
+  return fvpl_fluence(view.d2, inverse_variance) * vec2(diffuse, specular);
+}
+
+#endif
