@@ -1,8 +1,11 @@
 #include <random>
 
+#include "math/fvpl.h"
+#include "math/interop_vec.h"
 #include "math/moments.h"
 #include "math/vsgl.h"
 #include "shader_library.h"
+#include "spirv/test/library/fvpl.comp.glsl.h"
 #include "spirv/test/library/moments.comp.glsl.h"
 #include "spirv/test/library/vsgl.comp.glsl.h"
 
@@ -166,10 +169,156 @@ LibraryFile moments_file() {
         {1e-5, 1e-12}}}};
 }
 
+Row concatenation(std::initializer_list<Row> parts) {
+  Row row;
+  for (const Row& part : parts) row.insert(row.end(), part.begin(), part.end());
+  return row;
+}
+
+// Clusters in the order of the test shader: each density of normals and none, rough and smooth, of parallel
+// and of spread normals, straight and bumped, small and large, and one without any power.
+std::vector<Row> fvpl_clusters(std::initializer_list<double> alphas) {
+  std::vector<Row> rows;
+  const Row incident = direction({0.5, -0.1, 0.8}), diffuse{0.3f, 0.2f, 0}, specular{0.1f, 0, 2};
+  for (const std::uint32_t ndf :
+       {interop::NDF_NONE, interop::NDF_GGX, interop::NDF_BECKMANN, interop::NDF_PHONG})
+    for (const double alpha : alphas)
+      for (const double normal_sharpness : {0.5, 3.0, 150.0, 1e6})
+        for (const Vec3 bump : {Vec3{0, 0, 1}, Vec3{0.1, 0.2, 1}})
+          for (const float inverse_variance : {1e-2f, 10.0f, 1e6f}) {
+            const auto alpha2 = static_cast<float>(alpha * alpha);
+            const auto kappa = static_cast<float>(normal_sharpness);
+            rows.push_back(concatenation({{inverse_variance},
+                                          direction({0, 0, 1}),
+                                          {kappa},
+                                          diffuse,
+                                          {1.2f},
+                                          direction(bump),
+                                          {0.11f},
+                                          incident,
+                                          {alpha2},
+                                          specular,
+                                          {alpha2},
+                                          {word(ndf)}}));
+          }
+  return rows;
+}
+
+interop::Cluster take_cluster(Arguments& a) {
+  const auto vector = [&a] { return to_float(a.take3()); };
+  interop::Cluster c{};
+  c.inverse_variance = a.take_float();
+  c.normal = vector(), c.normal_sharpness = a.take_float();
+  c.diffuse = vector(), c.incident_masking = a.take_float();
+  c.shading_normal = vector(), c.incident_scale = a.take_float();
+  c.incident = vector(), c.alpha2 = a.take_float();
+  c.specular = vector(), c.masking_alpha2 = a.take_float();
+  c.ndf = a.take_word();
+  return c;
+}
+
+SpecularReceiver take_receiver(Arguments& a) {
+  const std::uint32_t ndf = a.take_word();
+  const double alpha = a.take();
+  const Vec3 normal = a.take3();
+  return specular_receiver(ndf, alpha, normal, a.take3());
+}
+
+auto emission(Vec3 (*function)(const interop::Cluster&, Vec3, double)) {
+  return [function](Arguments& a) {
+    const interop::Cluster c = take_cluster(a);
+    const Vec3 u = a.take3();
+    return Values() << function(c, u, a.take());
+  };
+}
+
+LibraryFile fvpl_file() {
+  const std::vector<Row> clusters = fvpl_clusters({0.05, 0.5});
+  std::vector<Row> wild_clusters = fvpl_clusters({1e-3, 1});
+  wild_clusters.emplace_back(22, 0.0f);
+  const std::vector<Row> towards = combinations({directions(), numbers({1e-6, 1, 1e4})});
+  const std::vector<Row> wild = combinations({wild_clusters, directions(), numbers({1e-12, 1e24})});
+  const std::vector<Row> receivers =
+      combinations({words({interop::NDF_NONE, interop::NDF_GGX, interop::NDF_BECKMANN, interop::NDF_PHONG}),
+                    numbers({0.05, 0.5}),
+                    {direction({0, 0.1, 1})},
+                    {direction({0.6, 0, 0.8})}});
+  const Tolerance tolerance{2e-3, 1e-5};
+  return {
+      "fvpl",
+      fvpl_comp_spv,
+      {{"fvpl_view",
+        combinations({offsets(), numbers({1e-4, 1, 1e6, 1e14})}),
+        [](Arguments& a) {
+          const Vec3 v = a.take3();
+          const FvplView view = fvpl_view(v, a.take());
+          return Values() << view.u << view.d2 << view.inverse_d2 << view.sharpness;
+        },
+        {1e-6, 0}},
+       {"fvpl_is_point",
+        combinations({numbers({0, 99, 101, 1e6}), numbers({0, 5, 30, 1e9})}),
+        [](Arguments& a) {
+          const double sharpness = a.take();
+          return Values() << static_cast<std::uint32_t>(fvpl_is_point(sharpness, a.take()));
+        },
+        {}},
+       {"fvpl_cosine",
+        combinations({numbers({-1, -0.2, 0, 0.3, 1}), sharpnesses()}),
+        [](Arguments& a) {
+          const double c = a.take();
+          return fvpl_cosine(c, a.take());
+        },
+        {0, 1e-5}},
+       {"fvpl_specular",
+        combinations({clusters, upper_directions(), numbers({1}), numbers({-0.1, 0, 0.7}), numbers({0.6})}),
+        [](Arguments& a) {
+          const interop::Cluster c = take_cluster(a);
+          const Vec3 w = a.take3();
+          const double inverse_d2 = a.take(), cosine = a.take();
+          return fvpl_specular(c, w, inverse_d2, cosine, a.take());
+        },
+        tolerance},
+       {"fvpl_emission_diffuse",
+        combinations({clusters, directions()}),
+        [](Arguments& a) {
+          const interop::Cluster c = take_cluster(a);
+          return Values() << fvpl_emission_diffuse(c, a.take3());
+        },
+        {0, 1e-6}},
+       {"fvpl_emission_flat", combinations({clusters, towards}), emission(fvpl_emission_flat), tolerance,
+        wild},
+       {"fvpl_emission", combinations({clusters, towards}), emission(fvpl_emission), tolerance, wild},
+       {"fvpl_point", combinations({receivers, directions(), numbers({1e-6, 1, 1e4})}),
+        [](Arguments& a) {
+          const SpecularReceiver r = take_receiver(a);
+          const Vec3 u = a.take3();
+          const FvplReflection f = fvpl_point(r, u, a.take());
+          return Values() << f.diffuse << f.specular;
+        },
+        tolerance},
+       {"fvpl_fluence",
+        combinations({numbers({0, 1e-12, 1e-3, 1, 1e6}), numbers({0, 1e-4, 1, 1e4, 1e12})}),
+        [](Arguments& a) {
+          const double d2 = a.take();
+          return fvpl_fluence(d2, a.take());
+        },
+        {2e-6, 0}},
+       {"fvpl_extended", combinations({receivers, offsets(), numbers({1e-4, 1, 1e4})}),
+        [](Arguments& a) {
+          const SpecularReceiver r = take_receiver(a);
+          const Vec3 v = a.take3();
+          const double inverse_variance = a.take();
+          const FvplReflection f = fvpl_extended(r, fvpl_view(v, inverse_variance), inverse_variance);
+          return Values() << f.diffuse << f.specular;
+        },
+        tolerance,
+        combinations({receivers, {{0, 0, 0}, {1e-13f, 0, 0}, {1e3f, 0, 2}}, numbers({0, 1e-9, 1e18})})}}};
+}
+
 }  // namespace
 
 std::vector<LibraryFile> light_files() {
-  return {vsgl_file(), moments_file()};
+  return {vsgl_file(), moments_file(), fvpl_file()};
 }
 
 }  // namespace vsgl::test
