@@ -46,6 +46,7 @@ metrics::Options options_of(const FilesArguments& a, const CLI::App& app) {
   options.layers.flip_mode = a.flip_mode == "hdr" ? metrics::FlipMode::hdr : metrics::FlipMode::ldr;
   options.layers.flip_pixels_per_degree = a.flip_ppd;
   options.layers.significance = a.significance;
+  options.layers.seam_tile = a.seam_tile;
   options.z_test = a.z_test;
   options.allow_non_finite = a.allow_non_finite;
   options.channels = a.channels;
@@ -89,6 +90,9 @@ void declare_files(Tool& tool, FilesArguments& a) {
       ->check(CLI::IsMember({"hdr", "ldr"}));
   app.add_option("--flip-ppd", a.flip_ppd, "pixels per degree of the viewer's field of view")
       ->check(CLI::Range(1.0, 1000.0));
+  app.add_option("--seams", a.seam_tile,
+                 "measure steps of the error at the borders of tiles of that many pixels a side")
+      ->check(CLI::Range(6, 4096));
   app.add_flag(
       "--z-test", a.z_test,
       "judge the layer indirect by the variance that B (and A) state; without --threshold only this counts");

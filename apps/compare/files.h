@@ -15,6 +15,7 @@ struct FilesArguments {
   double threshold = 0, fail_percent = 0;
   std::optional<double> hard_limit, relmse_epsilon;
   std::vector<std::string> limits, metrics, channels, exclude;
+  int seam_tile = 0;
   bool allow_non_finite = false, z_test = false;
   double significance = 0.05, flip_ppd = metrics::kFlipPixelsPerDegree;
   std::string flip_mode = "hdr";

@@ -104,6 +104,20 @@ class CompareTest:
         require(ldr["layers"][0]["metrics"].keys() == {"flip"} and ldr["layers"][0]["ssim"] is None, "what was not asked for")
         require(ldr["layers"][0]["flip"]["out_of_range"] > 0, "values above 1 are counted")
 
+    def seams(self):
+        steps = image()
+        steps["indirect.G"] = [2.0 if i % SIZE < 6 else 2.1 for i in range(SIZE * SIZE)]
+        for name, channels in (("steps", steps), ("flat", image())):
+            for c in "RB":
+                channels[f"indirect.{c}"] = [2.0] * (SIZE * SIZE)
+            write_exr(self.folder / f"{name}.exr", SIZE, SIZE, channels)
+        files = ("steps.exr", "flat.exr", "--seams", "6", "--limit")
+        document = self.judge(0, "within_thresholds", [], *files, "seam_max=0.036")
+        seams = document["layers"][0]["seams"]
+        require(abs(seams["excess"]["max"] - 0.7152 * 0.05 / 1.02) < 1e-5, f"the step in green: {seams}")
+        require(seams["worst_border"] == "vertical" and seams["worst_pixel"][0] == 6, f"the step's place: {seams}")
+        self.judge(1, "differs", ["limit"], *files, "seam_max=0.034")
+
     def perceived_maps(self):
         done = self.run("brighter.exr", "a.exr", "--flip-map", "flip.exr", "--ssim-map", "ssim.png")
         require(done.status == 1, f"{done}: expected status 1")
@@ -129,7 +143,8 @@ class CompareTest:
 
     def checks(self):
         return [(check.__name__, check) for check in (self.same, self.gain, self.thresholds, self.limits, self.nan,
-                self.structure, self.pictures, self.layers, self.perceived_maps, self.bad_input, self.metrics_are_listed)]
+                self.structure, self.pictures, self.layers, self.seams, self.perceived_maps, self.bad_input,
+                self.metrics_are_listed)]
 
 
 def main():

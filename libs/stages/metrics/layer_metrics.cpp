@@ -110,6 +110,10 @@ class LayerMeter {
     out.values_reference = log_histogram(b);
   }
 
+  std::optional<Seams> measure_seams(int tile) const {
+    return metrics::measure_seams(layer_, left_out_, tile);
+  }
+
   std::optional<ZTest> measure_z(double significance) const {
     if (test_.variance.empty() && reference_.variance.empty()) return std::nullopt;
     return z_test(layer_, left_out_, test_, reference_, significance);
@@ -192,6 +196,11 @@ std::span<const LayerMetric> layer_metrics() {
        [](const LayerResult& r) { return Value(r.luminance_bias); }},
       {{"z_rms", "root mean square of the z-scores, largest of the channels", 0, Better::lower},
        [](const LayerResult& r) { return r.z ? Value(largest_rms(*r.z)) : Value(); }},
+      {{"seam_p99", "step of the error at tile borders beyond the interior's, 99th percentile", 0,
+        Better::lower},
+       [](const LayerResult& r) { return r.seams ? Value(r.seams->excess.p99) : Value(); }},
+      {{"seam_max", "the largest such step", 0, Better::lower},
+       [](const LayerResult& r) { return r.seams ? Value(r.seams->excess.max) : Value(); }},
   };
   return kMetrics;
 }
@@ -226,6 +235,7 @@ std::optional<LayerResult> measure_layer(LayerPair layer, const Uncertainty& tes
   meter.measure_relative(out);
   meter.measure_bias(out);
   meter.measure_distributions(out);
+  if (options.seam_tile > 0) out.seams = meter.measure_seams(options.seam_tile);
   if (options.with_z) out.z = meter.measure_z(options.significance);
   return out;
 }

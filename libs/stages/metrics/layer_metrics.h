@@ -10,6 +10,7 @@
 
 #include "stages/metrics/flip.h"
 #include "stages/metrics/metrics.h"
+#include "stages/metrics/seams.h"
 #include "stages/metrics/statistics.h"
 #include "stages/metrics/z_test.h"
 
@@ -50,6 +51,7 @@ struct LayerResult {
   Errors absolute, relative;                   // of the luminance
   LogHistogram values_test, values_reference;  // luminances
   std::optional<ZTest> z;                      // of `indirect`, with a variance of either
+  std::optional<Seams> seams;                  // where the image has tiles with borders
 };
 
 constexpr std::array<double, 5> kPercentiles = {50, 90, 95, 99, 99.9};
@@ -68,6 +70,7 @@ struct LayerOptions {
   FlipMode flip_mode = FlipMode::hdr;
   double flip_pixels_per_degree = kFlipPixelsPerDegree;
   double significance = 0.05;  // of the z-test
+  int seam_tile = 0;           // pixels a side of the tiles whose seams are measured, 6 or more; 0: none are
   bool with_flip = true, with_ssim = true, with_z = true;
 };
 

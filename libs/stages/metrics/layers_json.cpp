@@ -72,6 +72,21 @@ Json describe(const ZTest& z, int width) {
           {"channels", channels}};
 }
 
+Json describe(const Seams::Steps& steps) {
+  return {{"median", number(steps.median)}, {"p99", number(steps.p99)}, {"max", number(steps.max)}};
+}
+
+Json describe(const Seams& seams) {
+  return {{"tile", seams.tile},
+          {"borders", seams.borders},
+          {"left_out", seams.left_out},
+          {"border", describe(seams.border)},
+          {"interior", describe(seams.interior)},
+          {"excess", describe(seams.excess)},
+          {"worst_pixel", {seams.worst_x, seams.worst_y}},
+          {"worst_border", seams.worst_is_vertical ? "vertical" : "horizontal"}};
+}
+
 }  // namespace
 
 Json number(double value) {
@@ -106,6 +121,7 @@ Json describe(const LayerResult& result, const Options& options) {
             {"error_relative", describe(result.relative.histogram)},
             {"test", describe(result.values_test)},
             {"reference", describe(result.values_reference)}}},
+          {"seams", result.seams ? describe(*result.seams) : Json(nullptr)},
           {"z_test", result.z ? describe(*result.z, result.width) : Json(nullptr)}};
 }
 

@@ -24,8 +24,9 @@ LayerPair grey_pair(const std::vector<float>& test, const std::vector<float>& re
 Uncertainty variance_of(std::size_t pixels, float variance) {
   return {std::vector<Colour>(pixels, {variance, variance, variance}), {}};
 }
-LayerResult measure(const LayerPair& layer, const Uncertainty& test = {}, const Uncertainty& reference = {}) {
-  const auto result = measure_layer(layer, test, reference, {});
+LayerResult measure(const LayerPair& layer, const Uncertainty& test = {}, const Uncertainty& reference = {},
+                    const LayerOptions& options = {}) {
+  const auto result = measure_layer(layer, test, reference, options);
   EXPECT_TRUE(result);
   return result.value_or(LayerResult{});
 }
@@ -78,8 +79,8 @@ TEST(LayerMetrics, PercentilesOfErrors) {
   }
 }
 
-// A perfect image against a truth with noise of 10%, v = 0.01: what is left is the noise, unless it is subtracted.
-// Then 6 v^2 is left, as b = 1 + n stands in the denominator too: E[(n^2 - v) (1 - 2n + 3n^2)].
+// A perfect image against a truth with noise of 10%, v = 0.01: what is left is the noise, unless it is
+// subtracted. Then 6 v^2 is left, as b = 1 + n stands in the denominator too: E[(n^2 - v) (1 - 2n + 3n^2)].
 TEST(LayerMetrics, DenoisedErrorHasNoFloor) {
   std::mt19937 random(3);
   std::normal_distribution<float> normal(1, 0.1f);
@@ -122,8 +123,11 @@ TEST(LayerMetrics, PixelsThatAreNotFiniteDoNotCount) {
 }
 
 TEST(LayerMetrics, EqualImagesAreIdeal) {
-  const LayerPair layer = grey_pair({1, 2, 3, 0}, {1, 2, 3, 0}, 2);
-  const LayerResult r = measure(layer, {}, variance_of(4, 1e-20f));
+  const std::vector<float> values = {1, 2, 3, 0, 0, 0, 0, 0};
+  const LayerPair layer = grey_pair(values, values, 8);
+  LayerOptions options;
+  options.seam_tile = 4;
+  const LayerResult r = measure(layer, {}, variance_of(values.size(), 1e-20f), options);
   for (const LayerMetric& metric : layer_metrics())
     EXPECT_NEAR(metric.value(r).value_or(NAN), metric.ideal, 1e-12) << metric.name;
 }
