@@ -145,8 +145,8 @@ struct Cut {
   std::vector<std::uint32_t>
       masks;  // of every entry: which mask, 0: all pixels see the node. Empty: visibility is not known
   std::vector<std::uint32_t> mask_words;  // MASK_WORDS a mask, 1 = visible; mask 0 has all bits set
-  // Visible share of each pixel's light, 0..1: multiplies all that the entries shade, besides their masks. Row
-  // by row, 1 for background; empty: 1 everywhere. A cut with it has masks, too.
+  // Visible share of each pixel's light, 0..1: multiplies all that the entries shade, besides their masks.
+  // Row by row, 1 for background; empty: 1 everywhere. A cut with it has masks, too.
   std::vector<float> visibility;
 
   int columns() const {
@@ -172,8 +172,10 @@ struct Indirect {
   std::vector<interop::vec3> diffuse,
       specular;  // of the indirect light; the file also holds their sum `indirect`
   std::vector<interop::vec3> direct;
-  std::vector<float> cancellation;  // fraction of the pixel's indirect luminance from lights whose SG
-                                    // approximation was cancelled
+  std::vector<float> cancellation;    // fraction of the pixel's indirect luminance from lights whose SG
+                                      // approximation was cancelled
+  std::vector<float> cut_size;        // entries of the cut of the pixel's tile
+  std::vector<float> error_estimate;  // relative, of what the cut of the pixel's tile leaves out
 };
 void write(const std::filesystem::path& path, const Indirect& indirect, const Provenance& provenance);
 Indirect read_indirect(const std::filesystem::path& path);

@@ -9,6 +9,8 @@ using namespace artifact;
 namespace {
 
 constexpr Field kCancellation[] = {{"cancellation", "V", 0, Range::unit_interval}};
+constexpr Field kCutSize[] = {{"cut_size", "V", 0, Range::non_negative}};
+constexpr Field kErrorEstimate[] = {{"error_estimate", "V", 0, Range::non_negative}};
 
 }  // namespace
 
@@ -16,6 +18,8 @@ void write(const std::filesystem::path& path, const Indirect& indirect, const Pr
   ExrPart part = make_part("", "indirect", provenance);
   ExrLevel level = pack_radiance(indirect);
   put_layer(level, kCancellation, indirect.cancellation);
+  put_layer(level, kCutSize, indirect.cut_size);
+  put_layer(level, kErrorEstimate, indirect.error_estimate);
   part.levels = {std::move(level)};
   write_parts(path, {std::move(part)});
 }
@@ -25,6 +29,8 @@ Indirect read_indirect(const std::filesystem::path& path) {
   const ExrPart& part = only_part(file);
   Indirect out = unpack_radiance(file, part);
   get_layer_if_there(file, part, kCancellation, out.cancellation);
+  get_layer_if_there(file, part, kCutSize, out.cut_size);
+  get_layer_if_there(file, part, kErrorEstimate, out.error_estimate);
   return out;
 }
 

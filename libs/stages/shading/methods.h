@@ -15,6 +15,10 @@ Indirect shade_vsgl(const GBuffer&, const Lights&, const Visibility*, const Shad
 Indirect shade_vsgl_2014(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
                          Report&);
 
+// By a cut through a light tree: its clusters as filtered virtual point lights, with the cut's visibility.
+// Also fills cut_size and error_estimate. The cut must be of these lights and of this image.
+Indirect shade_cut(const GBuffer&, const Lights&, const Cut&, const ShadingParams&, gpu::Device&, Report&);
+
 // Throws invalid_data, naming `what`, when it has another anchor than the G-buffer.
 void require_same_anchor(const std::string& what, Vec3 anchor, const GBuffer& gbuffer);
 

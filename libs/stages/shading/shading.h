@@ -16,9 +16,10 @@ struct ShadingParams {
   std::string method = "vsgl";  // one of shading_methods()
   double clamp = 0.01;          // vpl: floor of the distance, as a fraction of the scene's radius; 0: none
   std::string specular_lobe =
-      "auto";         // auto: the most accurate per NDF; asg: anisotropic SG, as the papers print it
-  double cbr = 0.05;  // consistent bias reduction: threshold a_cbr, 0..1; 0: off
-  bool skip = true;   // leave out what the scene does not need
+      "auto";             // auto: the most accurate per NDF; asg: anisotropic SG, as the papers print it
+  double cbr = 0.05;      // consistent bias reduction: threshold a_cbr, 0..1; 0: off
+  int diffuse_scale = 2;  // cut: 2: diffuse light at half resolution where that suffices; 1: at every pixel
+  bool skip = true;       // leave out what the scene does not need
 };
 
 // Radiance from `lights` at every pixel of `gbuffer`. `visibility`: of these lights; null: no shadows. The
