@@ -17,8 +17,8 @@ struct Arguments {
 };
 
 void declare(vsgl::Tool& tool, Arguments& a) {
-  tool.input("--rsm", a.rsm, "reflective shadow map to sample")->required();
-  tool.input("--pdf", a.pdf, "density of the samples over its texels (all methods but texels)");
+  tool.input("--rsm", a.rsm, "reflective shadow map to cluster or sample")->required();
+  tool.input("--pdf", a.pdf, "density of the samples over its texels; tree: weights its splits, if given");
   tool.output("-o,--output", a.output, "lights to write")->required();
   CLI::Option* info = tool.output("--info", a.info, "JSON with statistics of the lights");
   tool.app().add_flag("--dump", a.dump, "list the lights themselves in the JSON")->needs(info);
@@ -35,10 +35,14 @@ vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl:
   if (!a.pdf.empty()) pdf = read("read pdf", vsgl::read_pdf, a.pdf);
   a.params.seed = tool.common().seed;
 
-  vsgl::gpu::Device device(
-      {.device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
-  report.count("device", device.info().name);
-  const vsgl::Lights lights = vsgl::generate_lights(rsm, pdf ? &*pdf : nullptr, a.params, device, report);
+  std::optional<vsgl::gpu::Device> device;
+  if (vsgl::lights_method(a.params.method).needs_device) {
+    device.emplace(vsgl::gpu::DeviceOptions{
+        .device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
+    report.count("device", device->info().name);
+  }
+  const vsgl::Lights lights =
+      vsgl::generate_lights(rsm, pdf ? &*pdf : nullptr, a.params, device ? &*device : nullptr, report);
 
   const vsgl::PhaseTimer timer(report, "write");
   vsgl::write(outputs.add(a.output), lights, tool.provenance());
@@ -50,7 +54,7 @@ vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl:
 }  // namespace
 
 int main(int argc, char** argv) {
-  vsgl::Tool tool("vsgl-gen", "samples and filters virtual lights from a reflective shadow map");
+  vsgl::Tool tool("vsgl-gen", "virtual lights, or a tree of them, from a reflective shadow map");
   Arguments arguments;
   declare(tool, arguments);
   return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {

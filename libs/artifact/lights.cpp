@@ -36,6 +36,16 @@ constexpr Field kFields[] = {
     {"children", "I", offsetof(Light, children)},
 };
 
+// Rows of kRow lights: a row a light takes 8 times longer to write. An EXR has at least one pixel.
+constexpr std::size_t kRow = 1024;
+struct ImageSize {
+  int width, height;
+};
+ImageSize image_size(std::size_t lights) {
+  const std::size_t width = std::clamp<std::size_t>(lights, 1, kRow);
+  return {static_cast<int>(width), static_cast<int>(std::max<std::size_t>((lights + width - 1) / width, 1))};
+}
+
 // A lobe without power has no axis.
 void check_directions(const ExrFile& file, const ExrPart& part, const std::vector<Light>& lights) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -70,6 +80,11 @@ std::vector<std::uint32_t> tree_levels(const ExrFile& file, const ExrPart& part,
   return levels;
 }
 
+void check_list(const ExrFile& file, const ExrPart& part, const std::vector<Light>& lights) {
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (lights[i].children != 0) fail_at(file, part, "children.I", i, "children in a list");
+}
+
 }  // namespace
 
 // A cluster may hold specular power although the point that represents it has no specular lobe.
@@ -87,12 +102,11 @@ void write(const std::filesystem::path& path, const Lights& lights, const Proven
   part.attributes["lights.method"] = lights.method;
   part.attributes["lights.requested"] = lights.requested;
   part.attributes["lights.count"] = static_cast<int>(lights.lights.size());
-  part.compression =
-      ExrCompression::zip;  // 16 of these short rows a chunk: as fast as one uncompressed row a chunk
-  const std::vector<Light> none(1);  // an EXR has at least one row
-  const std::vector<Light>& rows = lights.lights.empty() ? none : lights.lights;
-  part.levels = {
-      pack(kFields, Structs(std::span(rows)), 1, static_cast<int>(rows.size()), lights.has_specular())};
+  part.attributes["lights.tree"] = lights.is_tree() ? 1 : 0;
+  const auto [width, height] = image_size(lights.lights.size());
+  std::vector<Light> pixels = lights.lights;
+  pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  part.levels = {pack(kFields, Structs(std::span(pixels)), width, height, lights.has_specular())};
   write_parts(path, {std::move(part)});
 }
 
@@ -106,14 +120,19 @@ Lights read_lights(const std::filesystem::path& path) {
   out.requested = int_in(file, part, "lights.requested", 0, std::numeric_limits<int>::max());
   const int count = int_in(file, part, "lights.count", 0, std::numeric_limits<int>::max());
   const bool with_specular = has_specular_channels(kFields, part);
-  const int rows = std::max(1, count);
+  const bool tree = int_in(file, part, "lights.tree", 0, 1) == 1;
+  const auto [width, height] = image_size(static_cast<std::size_t>(count));
   Light blank{};
   blank.alpha = 1;
-  out.lights.assign(static_cast<std::size_t>(part.height()), blank);
-  unpack(kFields, Structs(std::span(out.lights)), file, part, 0, 1, rows, with_specular);
+  out.lights.assign(static_cast<std::size_t>(part.width()) * static_cast<std::size_t>(part.height()), blank);
+  unpack(kFields, Structs(std::span(out.lights)), file, part, 0, width, height, with_specular);
   out.lights.resize(static_cast<std::size_t>(count));
   check_directions(file, part, out.lights);
-  if (out.method == "tree") out.levels = tree_levels(file, part, out.lights);
+  if (tree) {
+    out.levels = tree_levels(file, part, out.lights);
+  } else {
+    check_list(file, part, out.lights);
+  }
   return out;
 }
 

@@ -1,33 +1,6 @@
 #include "math/moments.h"
 
 namespace vsgl {
-namespace {
-
-struct MeanSpread {
-  Vec3 mean;
-  double spread = 0;
-};
-
-// weight(k), mean(k), spread(k) of tap k. Two passes: the mean, then spreads about it.
-template <class Weight, class Mean, class Spread>
-MeanSpread merge(std::size_t count, Weight weight, Mean mean, Spread spread) {
-  double total = 0;
-  MeanSpread merged;
-  for (std::size_t k = 0; k < count; ++k) {
-    total += weight(k);
-    merged.mean += weight(k) * mean(k);
-  }
-  if (total <= 0) return {};
-  merged.mean = merged.mean / total;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vec3 d = mean(k) - merged.mean;
-    merged.spread += weight(k) / total * (spread(k) + dot(d, d));
-  }
-  return merged;
-}
-
-}  // namespace
-
 DoubleMoments merge_moments(std::span<const DoubleMoments> taps, std::span<const double> shares) {
   DoubleMoments m;
   for (std::size_t k = 0; k < taps.size(); ++k) {
@@ -37,7 +10,7 @@ DoubleMoments merge_moments(std::span<const DoubleMoments> taps, std::span<const
     m.weight += shares[k] * taps[k].weight;
   }
   const auto weighted_by = [&](auto weight, Vec3 DoubleMoments::*mean, double DoubleMoments::*spread) {
-    return merge(
+    return merge_mean_spread(
         taps.size(), [&](std::size_t k) { return shares[k] * weight(taps[k]); },
         [&](std::size_t k) { return taps[k].*mean; }, [&](std::size_t k) { return taps[k].*spread; });
   };

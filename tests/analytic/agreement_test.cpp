@@ -51,9 +51,9 @@ Images render(const Setting& setting) {
   RsmParams rsm_params;
   rsm_params.width = rsm_params.height = setting.rsm_size;
   Images out{baker.gbuffer(), baker.rsm(rsm_params), {}, {}};
-  const Lights lights = generate_lights(out.rsm, nullptr, {.method = "texels"}, device, report);
+  const Lights lights = generate_lights(out.rsm, nullptr, {.method = "texels"}, &device, report);
   const Visibility bits =
-      build_visibility(scene, lights, &out.gbuffer, {.method = "raytraced"}, nullptr, report);
+      build_visibility({scene, lights, &out.gbuffer}, {.method = "raytraced"}, nullptr, report);
   out.chain = shade(out.gbuffer, lights, &bits, {.method = "vpl", .clamp = 0}, device, report);
   reference::ReferenceParams params;
   params.samples = setting.samples;

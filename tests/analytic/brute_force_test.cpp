@@ -57,7 +57,7 @@ Lights lights_of(const Baked& scene, const Pdf& pdf, const std::string& method, 
   LightsParams params;
   params.method = method;
   params.count = count;
-  return generate_lights(scene.rsm, &pdf, params, device(), report);
+  return generate_lights(scene.rsm, &pdf, params, &device(), report);
 }
 
 Agreement shaded(const Baked& scene, const Lights& lights, const ShadingParams& params) {
@@ -142,7 +142,7 @@ TEST(BruteForce, ConsistentBiasReduction) {
       ShadingParams params;
       params.method = method;
       Report report;
-      const Lights texels = generate_lights(scene.rsm, nullptr, {.method = "texels"}, device(), report);
+      const Lights texels = generate_lights(scene.rsm, nullptr, {.method = "texels"}, &device(), report);
       const Indirect image = shade(scene.gbuffer, texels, nullptr, params, device(), report);
       const Agreement found = agreement(image, scene.truth);
       double sum = 0;

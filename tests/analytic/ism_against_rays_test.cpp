@@ -35,9 +35,9 @@ Scene cornell() {
   const Rsm rsm = baker.rsm(rsm_params);
   Scene out{baker.gbuffer(), {}, {}, {}};
   const Pdf pdf = build_pdf(rsm, &out.gbuffer, {.method = "flux"}, device, report);
-  out.lights = generate_lights(rsm, &pdf, {.count = 256}, device, report);
+  out.lights = generate_lights(rsm, &pdf, {.count = 256}, &device, report);
   const auto look = [&](const char* method) {
-    return build_visibility(scene, out.lights, &out.gbuffer, {.method = method}, &device, report);
+    return build_visibility({scene, out.lights, &out.gbuffer}, {.method = method}, &device, report);
   };
   out.maps = std::get<ShadowMaps>(look("ism"));
   out.bits = std::get<VisibilityBits>(look("raytraced"));

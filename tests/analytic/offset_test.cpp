@@ -38,8 +38,8 @@ Render render(const std::string& name, Vec3 offset) {
   const Pdf pdf = build_pdf(rsm, &out.gbuffer, pdf_params, device, report);
   LightsParams lights_params;
   lights_params.count = 256;
-  const Lights lights = generate_lights(rsm, &pdf, lights_params, device, report);
-  const Visibility maps = build_visibility(scene, lights, nullptr, {}, &device, report);
+  const Lights lights = generate_lights(rsm, &pdf, lights_params, &device, report);
+  const Visibility maps = build_visibility({scene, lights}, {}, &device, report);
   out.image = shade(out.gbuffer, lights, &maps, {}, device, report);
   return out;
 }

@@ -75,7 +75,7 @@ void check_pdf(gpu::Device&, const std::filesystem::path& path) {
 Lights sample_lights(gpu::Device& device, const std::string& method) {
   Report report;
   static const Pdf pdf = flux_pdf(rsm());
-  return generate_lights(rsm(), &pdf, {.method = method, .count = 128}, device, report);
+  return generate_lights(rsm(), &pdf, {.method = method, .count = 128}, &device, report);
 }
 
 void check_lights(gpu::Device&, const std::filesystem::path& path) {
@@ -88,7 +88,7 @@ void check_lights(gpu::Device&, const std::filesystem::path& path) {
 
 Visibility find_visibility(gpu::Device& device, const Lights& lights, const std::string& method) {
   Report report;
-  return build_visibility(room_scene(), lights, &gbuffer(), {.method = method}, &device, report);
+  return build_visibility({room_scene(), lights, &gbuffer()}, {.method = method}, &device, report);
 }
 
 // Share of a light that arrives at a pixel.

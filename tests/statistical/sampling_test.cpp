@@ -95,7 +95,7 @@ TEST(Sampling, RandomVplsAreUnbiased) {
       params.method = "vpl";
       params.points = "random";
       params.seed = static_cast<std::uint64_t>(seed);
-      const Lights lights = generate_lights(rsm, &pdf, params, device(), report);
+      const Lights lights = generate_lights(rsm, &pdf, params, &device(), report);
       const double ratio = describe(lights, rsm, params, false).at("power").at("ratio");
       sum += ratio;
       squares += ratio * ratio;
@@ -117,7 +117,7 @@ TEST(Sampling, LightsCarryThePowerOfTheRsmForEveryDensity) {
     const auto ratio = [&](const std::string& rule) {
       LightsParams params;
       params.power = rule;
-      const Lights lights = generate_lights(rsm, &pdf, params, device(), report);
+      const Lights lights = generate_lights(rsm, &pdf, params, &device(), report);
       return describe(lights, rsm, params, false).at("power").at("ratio").get<double>();
     };
     EXPECT_NEAR(ratio("conserved"), 1, 1e-5) << method.name;

@@ -2,13 +2,10 @@
 
 #include "math/light_source.h"
 #include "pyramid/kernels.h"
+#include "stages/lights/methods.h"
 
 namespace vsgl {
 namespace {
-
-// Least standard deviation of a footprint, as a fraction of the scene's radius: keeps radiance finite next to
-// a light.
-constexpr double footprint_floor = 1e-6;
 
 interop::vec3 to_float(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};

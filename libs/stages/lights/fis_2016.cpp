@@ -30,19 +30,19 @@ double power_ratio(const Rsm& rsm, const std::vector<interop::Light>& lights) {
 // Deviation: all powers are scaled by one factor, so that they add up to the RSM's. Eq. (5) alone loses some
 // per cent where power over density changes within kernels, since the wide kernels on the side of low density
 // reach across.
-std::vector<interop::Light> generate_fis_2016(const Rsm& rsm, const Pdf* pdf, const LightsParams& params,
-                                              gpu::Device& device, Report& report) {
+LightSet generate_fis_2016(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device* device,
+                           Report& report) {
   const std::uint32_t rule =
       params.kernel_solver == "newton" ? interop::KERNEL_NEWTON : interop::KERNEL_BISECTION;
-  auto lights = sample_lights(rsm, *pdf, params, rule, device, report);
+  auto lights = sample_lights(rsm, *pdf, params, rule, *device, report);
   const double ratio = power_ratio(rsm, lights);
   report.count("power_ratio_of_paper", ratio);
-  if (params.power == "paper" || ratio <= 0) return lights;
+  if (params.power == "paper" || ratio <= 0) return {std::move(lights), {}};
   for (interop::Light& light : lights) {
     light.power_diffuse = scaled(light.power_diffuse, static_cast<float>(1 / ratio));
     light.power_specular = scaled(light.power_specular, static_cast<float>(1 / ratio));
   }
-  return lights;
+  return {std::move(lights), {}};
 }
 
 }  // namespace vsgl

@@ -1,7 +1,7 @@
 #pragma once
 
-// Generation of virtual lights: an RSM's texels are sampled by a density and filtered over kernels about the
-// samples. docs/sampling.md states the formulas.
+// Generation of virtual lights: an RSM's texels are clustered, or sampled by a density and filtered over
+// kernels about the samples. docs/sampling.md states the formulas.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -21,27 +21,34 @@ struct LightsParams {
   std::string kernel_solver = "newton";  // fis-2016: newton (exact) | bisection (12 steps, as printed)
   std::string power = "conserved";       // fis-2016: conserved (adds up to the RSM's) | paper (as printed)
   std::string points = "lattice";        // lattice | fibonacci | random
+  int level = -1;  // tree: -1, all of it; 0..16, a list of that level's nodes and of the leaves above it
   std::uint64_t seed = 0;
 };
 
-// Lights of `rsm` sampled by `pdf`, which may be null where the method does not sample (see LightsMethod).
-// Samples without power give no light; the others keep the samples' order. The same inputs give the same
-// bytes for any number of threads. Throws bad_value, out_of_range, missing_option (no density), wrong_size
-// when the density is of another RSM, device_limit.
-Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device& device,
+// Lights of `rsm` sampled by `pdf`. Density and device may be null where the method does not need them (see
+// LightsMethod). Samples without power give no light; the others keep the samples' order. The same inputs
+// give the same bytes for any number of threads. Throws bad_value, out_of_range, missing_option (no density),
+// wrong_size when the density is of another RSM, device_limit.
+Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device* device,
                        Report& report);
 
 // What lights.json holds (configs/schema/lights.schema.json): parameters, statistics and, with `dump`, the
 // lights.
 nlohmann::ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& params, bool dump);
 
-// A way to generate lights. `run` may assume checked parameters and, where it needs a density, one that is
-// positive somewhere; lights without power may be among the result.
+// What a method makes: a list, or a tree with its levels (see Lights).
+struct LightSet {
+  std::vector<interop::Light> lights;
+  std::vector<std::uint32_t> levels;
+};
+
+// A way to generate lights. `run` may assume checked parameters, a density that is of this RSM and, where it
+// needs one, positive somewhere; lights without power may be among a list.
 struct LightsMethod {
   std::string name;
   std::string summary;  // one line, for --list-methods
-  bool needs_pdf = true;
-  std::vector<interop::Light> (*run)(const Rsm&, const Pdf*, const LightsParams&, gpu::Device&, Report&);
+  bool needs_pdf = true, uses_pdf = true, needs_device = true;
+  LightSet (*run)(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 };
 const std::vector<LightsMethod>& lights_methods();
 // The row of that name. Throws bad_value, listing those that are there.

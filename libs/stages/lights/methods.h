@@ -6,12 +6,14 @@
 
 namespace vsgl {
 
-std::vector<interop::Light> generate_vpl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device&, Report&);
-std::vector<interop::Light> generate_fis_2014(const Rsm&, const Pdf*, const LightsParams&, gpu::Device&,
-                                              Report&);
-std::vector<interop::Light> generate_fis_2016(const Rsm&, const Pdf*, const LightsParams&, gpu::Device&,
-                                              Report&);
-std::vector<interop::Light> generate_texels(const Rsm&, const Pdf*, const LightsParams&, gpu::Device&,
-                                            Report&);
+// Least standard deviation of a footprint, as a fraction of the scene's radius: keeps radiance finite next to
+// a light.
+inline constexpr double footprint_floor = 1e-6;
+
+LightSet generate_vpl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+LightSet generate_fis_2014(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+LightSet generate_fis_2016(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+LightSet generate_texels(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+LightSet generate_tree(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 
 }  // namespace vsgl

@@ -22,6 +22,10 @@ void add_options(CLI::App& app, LightsParams& params) {
   app.add_option("--points", params.points,
                  "sample points: lattice of a searched generator, fibonacci, or random")
       ->check(CLI::IsMember(point_set_names()));
+  app.add_option(
+         "--level", params.level,
+         "tree: -1, all of it; else a plain list of this level's nodes (0: the root) and the leaves above")
+      ->check(CLI::Range(-1, 16));
 }
 
 }  // namespace vsgl

@@ -21,6 +21,9 @@ void check_params(const LightsParams& params) {
                 "kernel_solver: \"" + params.kernel_solver + "\" is none of newton, bisection");
   if (params.power != "conserved" && params.power != "paper")
     throw Error(ErrorCode::bad_value, "power: \"" + params.power + "\" is none of conserved, paper");
+  if (params.level < -1 || params.level > 16)
+    throw Error(ErrorCode::out_of_range,
+                "level: " + std::to_string(params.level) + " is outside -1..16; -1 takes the whole tree");
   point_set_kind(params.points);
 }
 
@@ -60,7 +63,13 @@ const std::vector<LightsMethod>& lights_methods() {
       {.name = "texels",
        .summary = "every texel that reflects, neither sampled nor filtered",
        .needs_pdf = false,
+       .uses_pdf = false,
        .run = generate_texels},
+      {.name = "tree",
+       .summary = "every texel that reflects, and clusters of them level by level up to one of all",
+       .needs_pdf = false,
+       .needs_device = false,
+       .run = generate_tree},
   };
   return methods;
 }
@@ -69,23 +78,29 @@ const LightsMethod& lights_method(const std::string& name) {
   return find_method(lights_methods(), name);
 }
 
-Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device& device,
+Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device* device,
                        Report& report) {
   const LightsMethod& method = lights_method(params.method);
   check_params(params);
   if (method.needs_pdf && !pdf)
     throw Error(ErrorCode::missing_option, "pdf: method " + method.name + " needs one; give --pdf pdf.exr");
-  if (method.needs_pdf) check_density(rsm, *pdf);
+  if (method.needs_device && !device)
+    throw Error(ErrorCode::internal, "generate_lights: method " + method.name + " without a device");
+  if (pdf && method.uses_pdf) check_density(rsm, *pdf);
   Lights out;
   out.method = method.name;
   out.anchor = rsm.anchor;
   out.scene_radius = rsm.scene_radius;
-  if (method.needs_pdf && is_dark(*pdf))
+  if (method.needs_pdf && is_dark(*pdf)) {
     report.skipped("lights", "the density is zero everywhere: nothing emits");
-  else
-    out.lights = method.run(rsm, pdf, params, device, report);
+  } else {
+    LightSet set = method.run(rsm, pdf, params, device, report);
+    out.lights = std::move(set.lights);
+    out.levels = std::move(set.levels);
+  }
   out.requested = method.needs_pdf ? params.count : static_cast<int>(out.lights.size());
-  std::erase_if(out.lights, [](const interop::Light& light) { return !has_power(light); });
+  if (!out.is_tree())
+    std::erase_if(out.lights, [](const interop::Light& light) { return !has_power(light); });
   report.count("lights", out.lights.size());
   report.count("dropped", static_cast<std::size_t>(out.requested) - out.lights.size());
   return out;

@@ -24,8 +24,8 @@ std::vector<interop::Kernel> texel_kernels(const Rsm& rsm) {
 
 // Every texel that reflects, with its own power, footprint and lobes: neither sampled nor filtered, what all
 // other methods approximate.
-std::vector<interop::Light> generate_texels(const Rsm& rsm, const Pdf*, const LightsParams&,
-                                            gpu::Device& device, Report& report) {
+LightSet generate_texels(const Rsm& rsm, const Pdf*, const LightsParams&, gpu::Device* device,
+                         Report& report) {
   report.skipped("sampling",
                  "method texels takes every texel that reflects: density, count, points and "
                  "kernels play no part");
@@ -35,7 +35,7 @@ std::vector<interop::Light> generate_texels(const Rsm& rsm, const Pdf*, const Li
                                              " texels reflect, more than " +
                                              std::to_string(interop::MAX_POINTS) + "; bake a smaller RSM");
   if (kernels.empty()) return {};
-  return filter_lights(rsm, kernels, device, report);
+  return {filter_lights(rsm, kernels, *device, report), {}};
 }
 
 }  // namespace vsgl

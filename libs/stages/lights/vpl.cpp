@@ -4,11 +4,11 @@
 namespace vsgl {
 
 // [Keller 1997; Dachsbacher 2005] the sampled texel itself, of power M w / (N p): no filter, no footprint.
-std::vector<interop::Light> generate_vpl(const Rsm& rsm, const Pdf* pdf, const LightsParams& params,
-                                         gpu::Device& device, Report& report) {
-  auto lights = sample_lights(rsm, *pdf, params, interop::KERNEL_TEXEL, device, report);
+LightSet generate_vpl(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device* device,
+                      Report& report) {
+  auto lights = sample_lights(rsm, *pdf, params, interop::KERNEL_TEXEL, *device, report);
   for (interop::Light& light : lights) light.variance = 0;
-  return lights;
+  return {std::move(lights), {}};
 }
 
 }  // namespace vsgl

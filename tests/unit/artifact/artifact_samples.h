@@ -135,9 +135,20 @@ inline Lights sample_lights(int count, bool specular) {
       l.specular_sharpness = c.next() * 0x1p40f;
       l.alpha = c.next() + 0.001f;
       l.ndf = interop::NDF_PHONG;
+      l.lobe_variance = c.next();
     }
     out.lights.push_back(l);
   }
+  return out;
+}
+
+// A root, its four children, and those of the third of these.
+inline Lights sample_tree() {
+  Lights out = sample_lights(9, true);
+  out.method = "tree";
+  out.lights[0].children = 1;
+  out.lights[3].children = 5;
+  out.levels = {0, 1, 5, 9};
   return out;
 }
 

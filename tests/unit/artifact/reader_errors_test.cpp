@@ -255,7 +255,7 @@ TEST(PdfErrors, MeanMustBeOne) {
 
 TEST(LightsErrors, CountsAndRanges) {
   Broken<Lights> file(sample_lights(9, true), [](const auto& p) { read_lights(p); });
-  file.expect(ErrorCode::wrong_size, {"1x9 pixels instead of 1x8"},
+  file.expect(ErrorCode::wrong_size, {"9x1 pixels instead of 8x1"},
               [](ExrFile& f) { f.parts[0].attributes["lights.count"] = 8; });
   file.expect(ErrorCode::invalid_data, {"'lights.count' is -1"},
               [](ExrFile& f) { f.parts[0].attributes["lights.count"] = -1; });
@@ -264,13 +264,31 @@ TEST(LightsErrors, CountsAndRanges) {
   file.expect(ErrorCode::invalid_data, {"'alpha.V'", "is not 1e-3..1"},
               [](ExrFile& f) { pixel(f, 0, 0, "alpha.V", 2) = 0; });
   for (const char* layer : {"axis_diffuse", "axis_specular", "normal", "shading_normal", "incident"})
-    file.expect(ErrorCode::invalid_data, {layer, "direction of length", "(0,5)"},
+    file.expect(ErrorCode::invalid_data, {layer, "direction of length", "(5,0)"},
                 [&](ExrFile& f) { pixel(f, 0, 0, std::string(layer) + ".X", 5) = 2; });
   file.expect(ErrorCode::missing_part, {"2 parts instead of one"}, [](ExrFile& f) {
     f.parts.push_back(f.parts[0]);
     f.parts[0].name = "a";
     f.parts[1].name = "b";
   });
+}
+
+// Levels follow from the children; what does not follow is refused.
+TEST(LightsErrors, Trees) {
+  Broken<Lights> file(sample_tree(), [](const auto& p) { read_lights(p); });
+  const auto set_children = [](std::size_t light, std::uint32_t first) {
+    return [=](ExrFile& f) { std::get<1>(f.parts[0].levels[0].channels.at("children.I")).at(light) = first; };
+  };
+  const std::string follow = "children do not follow one another at ";
+  file.expect(ErrorCode::invalid_data, {"'children.I'", follow + "(0,0)"}, set_children(0, 5));
+  file.expect(ErrorCode::invalid_data, {"'children.I'", follow + "(3,0)"}, set_children(3, 1));
+  file.expect(ErrorCode::invalid_data, {"'children.I'", follow + "(8,0)"}, set_children(8, 9));
+  file.expect(ErrorCode::invalid_data, {"'children.I'", "no light has this one among its children at (5,0)"},
+              set_children(3, 0));
+  file.expect(ErrorCode::invalid_data, {"'children.I'", "children in a list at (0,0)"},
+              [](ExrFile& f) { f.parts[0].attributes["lights.tree"] = 0; });
+  file.expect(ErrorCode::invalid_data, {"'lights.tree' is 2"},
+              [](ExrFile& f) { f.parts[0].attributes["lights.tree"] = 2; });
 }
 
 TEST(ShadowMapErrors, Sizes) {

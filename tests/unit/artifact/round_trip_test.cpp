@@ -84,7 +84,7 @@ TEST(RoundTrip, PdfOfASceneThatEmitsNothing) {
 
 TEST(RoundTrip, Lights) {
   const TemporaryFolder folder;
-  for (int count : {0, 1, 37, 700})
+  for (int count : {0, 1, 37, 1024, 1025, 3000})
     for (bool specular : {false, true}) {
       const Lights a = sample_lights(count, specular);
       write(folder / "l.exr", a, sample_provenance());
@@ -95,10 +95,24 @@ TEST(RoundTrip, Lights) {
       EXPECT_EQ(a.requested, b.requested);
       EXPECT_TRUE(same_bytes(a.lights, b.lights)) << count;
       const ExrFile file = read_exr(folder / "l.exr");
-      EXPECT_EQ(file.parts[0].width(), 1);
-      EXPECT_EQ(file.parts[0].height(), std::max(1, count));
+      EXPECT_FALSE(b.is_tree());
+      EXPECT_EQ(file.parts[0].width(), std::clamp(count, 1, 1024));
+      EXPECT_EQ(file.parts[0].height(), std::max(1, (count + 1023) / 1024));
       EXPECT_EQ(has_channel(file.parts[0], "sharpness_specular.V"), specular && count > 0);
     }
+}
+
+TEST(RoundTrip, LightTree) {
+  const TemporaryFolder folder;
+  for (const bool empty : {false, true}) {
+    Lights a = sample_tree();
+    if (empty) a.lights.clear(), a.levels = {0, 0};
+    write(folder / "t.exr", a, sample_provenance());
+    const Lights b = read_lights(folder / "t.exr");
+    EXPECT_EQ(b.method, "tree");
+    EXPECT_EQ(a.levels, b.levels);
+    EXPECT_TRUE(same_bytes(a.lights, b.lights));
+  }
 }
 
 TEST(RoundTrip, ShadowMaps) {

@@ -24,7 +24,7 @@ const Rsm& room() {
 
 Lights generate(const Rsm& rsm, const Pdf& pdf, const LightsParams& params) {
   Report report;
-  return generate_lights(rsm, &pdf, params, device(), report);
+  return generate_lights(rsm, &pdf, params, &device(), report);
 }
 
 double emitted(const Lights& lights) {
@@ -189,7 +189,7 @@ TEST(Lights, NothingEmits) {
     LightsParams params;
     params.method = method.name;
     Report report;
-    const Lights lights = generate_lights(rsm, &pdf, params, device(), report);
+    const Lights lights = generate_lights(rsm, &pdf, params, &device(), report);
     EXPECT_TRUE(lights.lights.empty());
     EXPECT_EQ(lights.requested, method.needs_pdf ? 1024 : 0);
     EXPECT_FALSE(report.to_json().at("skipped").empty());
@@ -204,7 +204,7 @@ TEST(Lights, SamplesWithoutPowerAreDroppedInOrder) {
   params.count = 4096;
   Report report;
   const Pdf pdf = uniform_pdf(rsm);
-  const Lights lights = generate_lights(rsm, &pdf, params, device(), report);
+  const Lights lights = generate_lights(rsm, &pdf, params, &device(), report);
   EXPECT_GT(lights.lights.size(), 10u);
   EXPECT_LT(lights.lights.size(), 100u);
   EXPECT_EQ(report.to_json().at("counts").at("dropped"), 4096 - lights.lights.size());
