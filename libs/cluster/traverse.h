@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "artifact/artifact.h"
@@ -24,8 +25,8 @@ struct TileSamples {
 TileSamples tile_samples(const GBuffer& gbuffer, int tile);
 
 struct CutCriterion {
-  float threshold = 0.003F;  // eps: accepted values and differences, relative to the sample's light
-  float floor = 0;           // radiance added to the sample's light (2% of the image's mean), W/(m^2 sr)
+  float threshold = 0.003F;       // eps: accepted values and differences, relative to the sample's light
+  float floor = 0;                // radiance added to the sample's light (2% of the image's mean), W/(m^2 sr)
   std::uint32_t start_level = 3;  // of the tree: its nodes, and the leaves above, are all evaluated
 };
 
@@ -39,8 +40,8 @@ struct TileCut {
     std::uint32_t visible = 0;  // bit k: sample k sees it
     float share = 0;  // the largest share, over the samples, that its unshadowed light has in all light
   };
-  // Each lit leaf is below exactly one of them. In depth-first order; nodes that no sample sees are among
-  // them: other pixels may.
+  // Each lit leaf is one of them or below exactly one. In ascending order of nodes; those that no sample sees
+  // are among them: other pixels may.
   std::vector<Entry> entries;
   double error = 0;             // estimate, relative, RMS over the samples
   std::size_t evaluations = 0;  // nodes times samples
@@ -61,6 +62,10 @@ class TreeTraversal {
               const NodeVisibility& visibility) const;
 
  private:
+  std::vector<std::uint32_t> start_nodes(std::uint32_t level) const;
+  // Mean luminance of the unshadowed radiance over the samples of some tiles.
+  double mean_light(std::span<const std::uint32_t> nodes) const;
+
   const GBuffer& gbuffer_;
   const std::vector<interop::Cluster>& clusters_;
   std::vector<std::uint32_t> levels_;
