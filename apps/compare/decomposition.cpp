@@ -23,7 +23,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return out;
 }
 
-metrics::CauseRemoved read_step(const std::string& text, const std::string& layer) {
+metrics::CauseRemoved read_step(Tool& tool, const std::string& text, const std::string& layer) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
     throw Error(
@@ -32,6 +32,7 @@ metrics::CauseRemoved read_step(const std::string& text, const std::string& laye
   metrics::CauseRemoved out{text.substr(0, equals), {}, {}};
   for (const std::string& file : split(text.substr(equals + 1), ',')) {
     out.images.push_back(metrics::read_frame(file, layer));
+    tool.depends_on(file);
     out.files.push_back(fs::path(file).filename().string());
   }
   return out;
@@ -148,7 +149,7 @@ Exit decompose_error(Tool& tool, const Inputs& inputs, const DecompositionArgume
   const metrics::Frame reference = metrics::read_frame(inputs.reference, layer);
   std::vector<metrics::CauseRemoved> chain;
   for (const std::string& step : a.steps) {
-    chain.push_back(read_step(step, layer));
+    chain.push_back(read_step(tool, step, layer));
     check_name(chain, a.remainder);
   }
   const auto weights = a.weights == "relative" ? metrics::Weights::relative : metrics::Weights::absolute;

@@ -79,6 +79,7 @@ vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::Outpu
     if (!std::filesystem::is_regular_file(file)) {
       throw vsgl::Error(vsgl::ErrorCode::file_not_found, file.string() + ": the file is missing");
     }
+    if (file != a.options.mesh) tool.depends_on(file);
   }
   const vsgl::PhaseTimer timer(report, "generate");
   const std::filesystem::path folder = a.output.parent_path();

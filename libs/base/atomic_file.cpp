@@ -139,10 +139,10 @@ OutputSet::~OutputSet() {
   }
 }
 
-std::vector<std::string> OutputSet::names() const {
-  std::vector<std::string> names;
-  for (const Entry& entry : entries_) names.push_back(entry.target.filename().string());
-  return names;
+std::vector<fs::path> OutputSet::targets() const {
+  std::vector<fs::path> targets;
+  for (const Entry& entry : entries_) targets.push_back(entry.target);
+  return targets;
 }
 
 void write_text(const fs::path& path, const std::string& text) {

@@ -24,8 +24,8 @@ class OutputSet {
   // fsync and rename all. Throws write_failed; then every temporary file is removed. An output that was
   // announced and left empty is an internal error.
   void commit();
-  // File names of all outputs, in the order of add().
-  std::vector<std::string> names() const;
+  // All outputs, in the order of add().
+  std::vector<std::filesystem::path> targets() const;
 
   // The checks of add(), without creating anything.
   static void check(const std::filesystem::path& target, bool overwrite);

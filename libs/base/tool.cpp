@@ -3,6 +3,7 @@
 #include <omp.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -19,6 +20,8 @@ namespace vsgl {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "/proc/self/exe";
 
 // stdout carries results only, so losing some of it is an error.
 void print_stdout(const std::string& text) {
@@ -106,6 +109,9 @@ void Tool::add_common_options() {
   dry_run->configurable(false);
   CLI::Option* overwrite =
       app_.add_flag("--overwrite", common_.overwrite, "replace outputs that are there already");
+  CLI::Option* if_changed = app_.add_flag(
+      "--if-changed", common_.if_changed,
+      "do nothing where the outputs are there and this program made them of the same inputs and options");
   CLI::Option* progress = app_.add_option("--progress", common_.progress, "progress bars on a terminal");
   progress->check(CLI::IsMember({"auto", "never"}));
   CLI::Option* quiet = app_.add_flag("-q,--quiet", common_.quiet, "print errors only");
@@ -121,6 +127,7 @@ void Tool::add_common_options() {
               json,
               dry_run,
               overwrite,
+              if_changed,
               progress,
               quiet,
               verbose};
@@ -206,23 +213,36 @@ void Tool::check_conflicts() const {
   }
 }
 
-void Tool::check_files() const {
+void Tool::check_inputs() const {
   for (const auto& [option, path] : inputs_) {
     std::error_code ignored;
     if (path->empty() || names_frames(*path) || fs::exists(*path, ignored)) continue;
     throw Error(ErrorCode::file_not_found,
                 path->string() + ": no such file (" + options::long_name(*option) + ")");
   }
+}
+
+void Tool::check_outputs() const {
   for (const auto& [option, path] : outputs_) {
     if (!path->empty()) OutputSet::check(*path, common_.overwrite);
   }
 }
 
 std::string Tool::command_line() const {
+  return command_line_without(neutral_);
+}
+
+std::string Tool::command_line_with_outputs() const {
+  std::set<const CLI::Option*> left_out = neutral_;
+  std::erase_if(left_out, [](const auto* option) { return option->get_group() != usage::kCommonGroup; });
+  return command_line_without(left_out);
+}
+
+std::string Tool::command_line_without(const std::set<const CLI::Option*>& left_out) const {
   std::string line = name_;
   for (const CLI::Option* option : app_.get_options()) {
     nlohmann::ordered_json value = options::value_of(*option);
-    if (neutral_.contains(option) || value.is_null() || value == options::default_of(*option)) continue;
+    if (left_out.contains(option) || value.is_null() || value == options::default_of(*option)) continue;
     if (paths_.contains(option)) value = fs::path(value.get<std::string>()).filename().string();
     const std::string name = options::long_name(*option);
     if (name.starts_with("-")) line += " " + name;
@@ -231,14 +251,19 @@ std::string Tool::command_line() const {
   return line;
 }
 
+std::vector<fs::path> Tool::input_files() const {
+  std::vector<fs::path> files;
+  for (const auto& [option, path] : inputs_) {
+    if (!path->empty() && !names_frames(*path)) files.push_back(*path);
+  }
+  files.insert(files.end(), dependencies_.begin(), dependencies_.end());
+  return files;
+}
+
 Provenance Tool::provenance() const {
   if (hashed_.empty()) {
-    std::vector<fs::path> files;
-    for (const auto& [option, path] : inputs_) {
-      if (!path->empty() && !names_frames(*path)) files.push_back(*path);
-    }
-    files.insert(files.end(), dependencies_.begin(), dependencies_.end());
-    for (const fs::path& file : files) hashed_.push_back({file.filename().string(), sha256_file(file)});
+    for (const fs::path& file : input_files())
+      hashed_.push_back({file.filename().string(), sha256_file(file)});
   }
   return {.tool = name_,
           .tool_version = VSGL_VERSION,
@@ -247,13 +272,13 @@ Provenance Tool::provenance() const {
           .inputs = hashed_};
 }
 
-void Tool::print_result(const Report& report, const OutputSet& outputs) const {
+void Tool::print_result(const Report& report, const std::vector<fs::path>& outputs) const {
   using Json = nlohmann::ordered_json;
   if (common_.json) {
-    Json result = {{"$schema", "vsgltools/result/1"},
-                   {"tool", name_},
-                   {"version", VSGL_VERSION},
-                   {"outputs", outputs.names()}};
+    Json names = Json::array();
+    for (const fs::path& path : outputs) names.push_back(path.filename().string());
+    Json result = {
+        {"$schema", "vsgltools/result/1"}, {"tool", name_}, {"version", VSGL_VERSION}, {"outputs", names}};
     result.update(report.to_json());
     print_stdout(result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } else if (!common_.quiet) {
@@ -262,17 +287,59 @@ void Tool::print_result(const Report& report, const OutputSet& outputs) const {
 }
 
 Exit Tool::work(const std::function<Exit(Report&, OutputSet&)>& body) {
-  check_files();
+  check_inputs();
+  Report report;
+  if (const auto earlier = common_.if_changed ? earlier_run() : std::nullopt) {
+    report.skipped(name_, "unchanged: the outputs are there, from the same inputs and options");
+    print_result(report, earlier->output_paths());
+    return static_cast<Exit>(earlier->status);
+  }
+  check_outputs();
   if (common_.threads > 0) omp_set_num_threads(common_.threads);
   set_log(name_, common_.quiet ? -1 : common_.verbose);
   set_progress(common_.progress == "auto" && !common_.quiet);
-  Report report;
   OutputSet outputs(common_.overwrite);
   const Exit status = body(report, outputs);
   outputs.commit();
+  if (common_.if_changed) remember_run(outputs, status);
   for (const std::string& warning : report.warnings()) log_warning(warning);
-  print_result(report, outputs);
+  print_result(report, outputs.targets());
   return status;
+}
+
+fs::path Tool::record_file() const {
+  for (const auto& [option, path] : outputs_) {
+    if (!path->empty()) return record_path(*path);
+  }
+  return {};
+}
+
+std::optional<RunRecord> Tool::earlier_run() const {
+  const fs::path file = record_file();
+  const bool sequences = std::any_of(inputs_.begin(), inputs_.end(),
+                                     [](const PathOption& input) { return names_frames(*input.second); });
+  if (file.empty() || sequences) return {};
+  const auto record = read_record(file);
+  const bool same = record && record->tool == name_ && record->program == sha256_file(kProgram) &&
+                    record->command_line == command_line_with_outputs() &&
+                    record->starts_with_inputs(input_files(), file) && record->holds(file);
+  return same ? record : std::nullopt;
+}
+
+void Tool::remember_run(const OutputSet& outputs, Exit status) const {
+  const fs::path file = record_file();
+  if (file.empty() || outputs.targets().empty()) return;
+  RunRecord record{.tool = name_,
+                   .program = sha256_file(kProgram),
+                   .command_line = command_line_with_outputs(),
+                   .status = static_cast<int>(status)};
+  const std::vector<fs::path> inputs = input_files();
+  const std::vector<Provenance::Input> hashes = provenance().inputs;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    record.inputs.push_back({path_in_record(inputs[i], file), hashes[i].sha256});
+  for (const fs::path& output : outputs.targets())
+    record.outputs.push_back({path_in_record(output, file), sha256_file(output)});
+  write_record(file, record);
 }
 
 int Tool::run(int argc, char** argv, const std::function<Exit(Report&, OutputSet&)>& body) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "base/error.h"
 #include "base/provenance.h"
 #include "base/report.h"
+#include "base/run_record.h"
 
 namespace vsgl {
 
@@ -22,7 +24,7 @@ struct CommonOptions {
   std::string device = "auto";  // auto | cpu | gpu | part of a device's name
   int threads = 0;              // 0: all cores
   std::uint64_t seed = 0;
-  bool json = false, dry_run = false, overwrite = false, quiet = false, no_skip = false;
+  bool json = false, dry_run = false, overwrite = false, if_changed = false, quiet = false, no_skip = false;
   int verbose = 0;
   std::string progress = "auto";  // auto | never
 };
@@ -85,10 +87,20 @@ class Tool {
   // False when --help, --version or --dry-run has been answered.
   bool parse(int argc, char** argv);
   void check_conflicts() const;
-  void check_files() const;
+  void check_inputs() const;
+  void check_outputs() const;
   Exit work(const std::function<Exit(Report&, OutputSet&)>& body);
-  void print_result(const Report& report, const OutputSet& outputs) const;
+  void print_result(const Report& report, const std::vector<std::filesystem::path>& outputs) const;
   std::string command_line() const;
+  std::string command_line_without(const std::set<const CLI::Option*>& left_out) const;
+
+  // --if-changed. The record of this very run, if its outputs are still there; where there are sequences
+  // among the inputs there never is one, since they may have got new frames.
+  std::optional<RunRecord> earlier_run() const;
+  void remember_run(const OutputSet& outputs, Exit status) const;
+  std::filesystem::path record_file() const;  // empty: no output is asked for
+  std::string command_line_with_outputs() const;
+  std::vector<std::filesystem::path> input_files() const;  // that are hashed
 
   std::string name_;
   CLI::App app_;

@@ -12,7 +12,7 @@ from blackbox import Failure, require, run, run_checks
 import help_text
 
 COMMON = ["--help", "--version", "--config", "--device", "--threads", "--seed", "--json", "--dry-run", "--overwrite",
-          "--progress", "--quiet", "--verbose", "--no-skip"]
+          "--if-changed", "--progress", "--quiet", "--verbose", "--no-skip"]
 NOT_IN_CONFIG = ["--help", "--version", "--config", "--dry-run", "--list-methods"]
 
 

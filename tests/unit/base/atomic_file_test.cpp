@@ -22,7 +22,7 @@ TEST_F(Atomic, CommitMovesEveryOutputIntoPlace) {
   outputs.commit();
   EXPECT_EQ(listing(), (Names{"a.exr", "b.json"}));
   EXPECT_EQ(read("a.exr"), "A");
-  EXPECT_EQ(outputs.names(), (std::vector<std::string>{"a.exr", "b.json"}));
+  EXPECT_EQ(outputs.targets(), (std::vector<std::filesystem::path>{path("a.exr"), path("b.json")}));
 }
 
 TEST_F(Atomic, TheTemporaryFileKeepsFolderAndExtension) {
