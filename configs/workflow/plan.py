@@ -144,8 +144,8 @@ class Plan:
             key = tool.replace("-", "_")
             return self.stage(tool, [scene, at(frame), *label], inputs, pipeline.get(key, {}) | further, arguments, (*origin, key))
 
-        def method(key):
-            return (pipeline.get(key) or {}).get("method")
+        def method(key, option="method"):
+            return (pipeline.get(key) or {}).get(option)
 
         own = "rsm_bake" in pipeline
         bake = self.bake(scene, frame, pipeline.get("rsm_bake"), (*origin, "rsm_bake") if own else ("rsm_bake",))
@@ -161,7 +161,7 @@ class Plan:
             seen = {**self.scene(scene), "lights": inputs["lights"], **pixels}
             stages["ismap"] = stage("ismap", [method("vsgl_gen"), n, f"s{seed}", method("ismap")], seen, frame_arguments(frame))
             inputs["ism"] = f"{stages['ismap']}/ism.exr"
-        stages["shade"] = stage("shade", [method("shade"), n, f"s{seed}"], inputs)
+        stages["shade"] = stage("shade", [method("shade", "light_model"), n, f"s{seed}"], inputs)
         return f"{stages['shade']}/indirect.exr", stages
 
     def image(self, scene, frame, name, n, seed):

@@ -7,14 +7,14 @@
 
 namespace vsgl {
 
-// Declares --method, one of a registry's rows (each with `name` and `summary`), and --list-methods, which
+// Declares `flag`, one of a registry's rows (each with `name` and `summary`), and --list-methods, which
 // prints them one a line and has no place in a file. `registry` must outlive the app.
 template <class Method>
 void add_methods(CLI::App& app, const std::vector<Method>& registry, std::string& method,
-                 const std::string& help) {
+                 const std::string& help, const std::string& flag = "--method") {
   std::vector<std::string> names;
   for (const Method& row : registry) names.push_back(row.name);
-  app.add_option("--method", method, help + "; see --list-methods")->check(CLI::IsMember(names));
+  app.add_option(flag, method, help + "; see --list-methods")->check(CLI::IsMember(names));
   const auto print = [&registry] {
     std::size_t widest = 0;
     for (const Method& row : registry) widest = std::max(widest, row.name.size());

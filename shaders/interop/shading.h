@@ -30,7 +30,8 @@ struct ShadingLight {
 };
 VSGL_CHECK_SIZE(ShadingLight, 140)
 
-// Lights in one uniform block of 64 KiB; the host fills less where the device's limit is lower.
+// Lights (or Clusters, which are smaller) in one uniform block of 64 KiB; the host fills less where the
+// device's limit is lower.
 VSGL_CONST uint SHADING_BLOCK_LIGHTS = 468u;
 
 // Sums of one receiver, without its reflectances.

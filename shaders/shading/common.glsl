@@ -4,6 +4,11 @@
 
 #include "shading/receiver.glsl"
 
+// What the uniform block holds.
+#ifndef SHADING_LIGHT
+#define SHADING_LIGHT ShadingLight
+#endif
+
 layout(local_size_x = SHADING_GROUP) in;
 
 // As RECEIVER, what the scene and the parameters need.
@@ -13,7 +18,7 @@ layout(constant_id = SHADING_CANCEL_ID) const uint CANCEL = 0;
 layout(constant_id = SHADING_PIXELS_ID) const uint PIXELS = 8;
 
 layout(scalar, binding = 0) readonly buffer Receivers { Surface surfaces[]; };
-layout(scalar, binding = 1) uniform LightBlock { ShadingLight lights[SHADING_BLOCK_LIGHTS]; };
+layout(scalar, binding = 1) uniform LightBlock { SHADING_LIGHT lights[SHADING_BLOCK_LIGHTS]; };
 layout(scalar, binding = 2) buffer Results { ShadingSums results[]; };
 layout(scalar, binding = 3) readonly buffer Atlas { float inverse_distance[]; };
 layout(scalar, binding = 4) readonly buffer Views { ShadingView views[]; };

@@ -10,7 +10,7 @@ void main() {
     sums[j] = Sums(vec3(0.0), vec3(0.0), 0.0);
   }
   for (uint i = 0; i < push.lights; ++i) {
-    ShadingLight light = lights[i];
+    SHADING_LIGHT light = lights[i];
     [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_light(receivers[j], light, sums[j]);
   }
   [[unroll]] for (uint j = 0; j < PIXELS; ++j) {

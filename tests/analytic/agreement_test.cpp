@@ -54,7 +54,7 @@ Images render(const Setting& setting) {
   const Lights lights = generate_lights(out.rsm, nullptr, {.method = "texels"}, &device, report);
   const Visibility bits =
       build_visibility({scene, lights, &out.gbuffer}, {.method = "raytraced"}, nullptr, report);
-  out.chain = shade(out.gbuffer, lights, &bits, {.method = "vpl", .clamp = 0}, device, report);
+  out.chain = shade(out.gbuffer, lights, &bits, {.light_model = "vpl", .clamp = 0}, device, report);
   reference::ReferenceParams params;
   params.samples = setting.samples;
   out.truth = reference::trace_reference(scene, out.gbuffer, params, report);

@@ -73,9 +73,10 @@ struct Variant {
 
 std::vector<Variant> variants() {
   ShadingParams vsgl, uncancelled, formulation_a, vpl;
+  vsgl.light_model = uncancelled.light_model = "vsgl";
   uncancelled.cbr = 0;
-  formulation_a.method = "vsgl-2014";
-  vpl.method = "vpl";
+  formulation_a.light_model = "vsgl-2014";
+  vpl.light_model = "vpl";
   return {{"fis-2016, vsgl", "fis-2016", vsgl},
           {"fis-2016, vsgl, cbr 0", "fis-2016", uncancelled},
           {"fis-2016, vsgl-2014", "fis-2016", formulation_a},
@@ -140,7 +141,7 @@ TEST(BruteForce, ConsistentBiasReduction) {
     for (const int size : {128, 256, 512}) {
       const Baked scene = bake("cornell-glossy", 32, 18, size);
       ShadingParams params;
-      params.method = method;
+      params.light_model = method;
       Report report;
       const Lights texels = generate_lights(scene.rsm, nullptr, {.method = "texels"}, &device(), report);
       const Indirect image = shade(scene.gbuffer, texels, nullptr, params, device(), report);

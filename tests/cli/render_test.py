@@ -34,9 +34,9 @@ SMALL = {
 # Changes to SMALL; None takes a stage away.
 PIPELINES = {
     "vsgl": {},
-    "vpl": {"pdf_build": {"method": "flux"}, "vsgl_gen": {"method": "vpl"}, "shade": {"method": "vpl"}},
+    "vpl": {"pdf_build": {"method": "flux"}, "vsgl_gen": {"method": "vpl"}, "shade": {"light_model": "vpl"}},
     "fis-2014": {"rsm_bake": {"rsm_normals": "paper"}, "pdf_build": {"method": "brsm-vpl"}, "vsgl_gen": {"method": "fis-2014"},
-                 "shade": {"method": "vsgl-2014", "cbr": 0}},
+                 "shade": {"light_model": "vsgl-2014", "cbr": 0}},
     "exact visibility": {"ismap": {"method": "raytraced"}},
     "no shadows": {"ismap": None},
     "drawn": {"rsm_bake": {"visible": "raster"}},
@@ -168,8 +168,9 @@ class RenderTest:
                 continue
             methods = [line.split()[0] for line in self.tool(tool, "--list-methods").out.splitlines()]
             require(methods, f"{tool} lists no methods")
+            key = "light_model" if tool == "shade" else "method"
             for method in methods:
-                self.render("cornell-glossy", pipeline({stage: {"method": method}}), "method.exr")
+                self.render("cornell-glossy", pipeline({stage: {key: method}}), "method.exr")
                 tried += 1
         require(tried >= 12, f"only {tried} methods tried")
 

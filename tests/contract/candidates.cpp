@@ -161,7 +161,7 @@ std::vector<double> pixel_luminances(const Indirect& image) {
 Indirect make_image(gpu::Device& device, const Lights& lights, const Visibility* visibility,
                     const std::string& method) {
   Report report;
-  return shade(gbuffer(), lights, visibility, {.method = method}, device, report);
+  return shade(gbuffer(), lights, visibility, {.light_model = method}, device, report);
 }
 
 // The power spread evenly over the room's surface and reflected by the mean albedo gives a mean radiance that
@@ -213,7 +213,7 @@ const std::vector<Candidate>& candidates() {
     append(out, "pdf", "pdf-build", pdf_methods(), build_density, check_pdf);
     append(out, "lights", "vsgl-gen", lights_methods(), sample_lights, check_lights);
     append(out, "visibility", "ismap", visibility_methods(), vpl_visibility, check_visibility);
-    append(out, "shading", "shade", shading_methods(), make_shadowed_image, check_image);
+    append(out, "shading", "shade", light_models(), make_shadowed_image, check_image);
     return out;
   }();
   return list;

@@ -18,13 +18,13 @@ from chain import Chain, StageFailed  # noqa: E402
 
 REFERENCE = ROOT / "tests" / "golden" / "reference"
 CASES = {
-    "cornell-vsgl": (["cornell"], ["--method", "vsgl"]),
-    "cornell-glossy-vsgl": (["cornell-glossy"], ["--method", "vsgl"]),
-    "cornell-glossy-vsgl-2014": (["cornell-glossy"], ["--method", "vsgl-2014"]),
-    "cornell-glossy-vpl": (["cornell-glossy"], ["--method", "vpl"]),
-    "caustic-ring-vsgl": (["caustic-ring"], ["--method", "vsgl"]),
-    "thin-walls-vsgl": (["thin-walls"], ["--method", "vsgl"]),
-    "atrium-vsgl": (["atrium", "--triangles", "6000"], ["--method", "vsgl"]),
+    "cornell-vsgl": (["cornell"], ["--light-model", "vsgl"]),
+    "cornell-glossy-vsgl": (["cornell-glossy"], ["--light-model", "vsgl"]),
+    "cornell-glossy-vsgl-2014": (["cornell-glossy"], ["--light-model", "vsgl-2014"]),
+    "cornell-glossy-vpl": (["cornell-glossy"], ["--light-model", "vpl"]),
+    "caustic-ring-vsgl": (["caustic-ring"], ["--light-model", "vsgl"]),
+    "thin-walls-vsgl": (["thin-walls"], ["--light-model", "vsgl"]),
+    "atrium-vsgl": (["atrium", "--triangles", "6000"], ["--light-model", "vsgl"]),
 }
 THRESHOLDS = ["--threshold", "1e-3", "--fail-percent", "0.5", "--hard-limit", "0.2"]
 

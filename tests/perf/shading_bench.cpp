@@ -76,7 +76,7 @@ nlohmann::ordered_json measure(const Options& options, const Case& c, vsgl::gpu:
   const vsgl::Lights lights = vsgl::test::box_lights(scene);
   const NativeReceivers receivers = vsgl::bench::make_native_receivers(gbuffer);
   const auto packed = vsgl::pack_vsgl(lights);
-  const vsgl::ShadingParams params;
+  const vsgl::ShadingParams params{.light_model = "vsgl"};
   const int bits = device.info().vector_bits;
   const auto native = bits == 512 ? vsgl::bench::width512::shade : vsgl::bench::width256::shade;
   const double evaluations = static_cast<double>(gbuffer.pixels.size()) * options.lights;

@@ -1,6 +1,6 @@
 #pragma once
 
-// One function per method; see shading_methods().
+// One function per light model, see light_models(), and the schedule that needs more than a list of lights.
 
 #include <string>
 
@@ -8,6 +8,8 @@
 
 namespace vsgl {
 
+Indirect shade_fvpl(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
+                    Report&);
 Indirect shade_vpl(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
                    Report&);
 Indirect shade_vsgl(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,

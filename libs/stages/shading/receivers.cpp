@@ -3,7 +3,6 @@
 #include <array>
 
 #include "interop/model.h"
-#include "interop/shading.h"
 
 namespace vsgl {
 namespace {
@@ -17,14 +16,32 @@ bool is_bumped(const interop::Surface& s) {
          s.normal.z != s.shading_normal.z;
 }
 
+interop::vec3 sum(interop::vec3 a, interop::vec3 b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
 }  // namespace
+
+std::uint32_t receiver_ndf(const interop::Surface& surface) {
+  return is_black(surface.specular) ? interop::NDF_NONE : surface.ndf;
+}
+
+void add(const std::vector<interop::ShadingSums>& sums, const ReceiverList& list,
+         std::vector<interop::ShadingSums>& image) {
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    interop::ShadingSums& pixel = image[list.pixels[i]];
+    pixel.diffuse = sum(pixel.diffuse, sums[i].diffuse);
+    pixel.specular = sum(pixel.specular, sums[i].specular);
+    pixel.aside += sums[i].aside;
+  }
+}
 
 std::vector<ReceiverList> sort_receivers(const GBuffer& gbuffer, bool skip) {
   std::array<ReceiverList, interop::NDF_ANY + 1> lists;
   for (std::uint32_t i = 0; i < gbuffer.pixels.size(); ++i) {
     const interop::Surface& s = gbuffer.pixels[i];
     if (s.id == interop::NO_INSTANCE) continue;
-    const std::uint32_t ndf = !skip ? interop::NDF_ANY : is_black(s.specular) ? interop::NDF_NONE : s.ndf;
+    const std::uint32_t ndf = skip ? receiver_ndf(s) : interop::NDF_ANY;
     ReceiverList& list = lists[ndf];
     list.ndf = ndf;
     list.bumped = list.bumped || !skip || is_bumped(s);

@@ -8,10 +8,10 @@ namespace {
 
 constexpr double kAnchorTolerance = 1e-6;  // of the scene's radius
 
-void require_range(const char* name, double value, double maximum) {
-  if (!(value >= 0 && value <= maximum))
-    throw Error(ErrorCode::out_of_range, std::string(name) + ": " + std::to_string(value) +
-                                             " is outside 0.." + std::to_string(maximum) +
+void require_range(const char* name, double value, double minimum, double maximum) {
+  if (!(value >= minimum && value <= maximum))
+    throw Error(ErrorCode::out_of_range, std::string(name) + ": " + std::to_string(value) + " is outside " +
+                                             std::to_string(minimum) + ".." + std::to_string(maximum) +
                                              "; choose a value within");
 }
 
@@ -55,25 +55,60 @@ void require_same_anchor(const std::string& what, Vec3 anchor, const GBuffer& gb
                 what + ": anchor differs from the G-buffer's; make both from the same scene");
 }
 
-const std::vector<ShadingMethod>& shading_methods() {
-  static const std::vector<ShadingMethod> methods = {
+const std::vector<LightModel>& light_models() {
+  static const std::vector<LightModel> models = {
+      {"fvpl", "filtered virtual point lights: clusters with their mean BRDF", shade_fvpl},
       {"vpl", "virtual point lights with the true BRDFs and a floor of the distance", shade_vpl},
       {"vsgl", "virtual spherical Gaussian lights with Gaussian footprints (2016)", shade_vsgl},
       {"vsgl-2014", "virtual spherical Gaussian lights as disks (2014)", shade_vsgl_2014},
   };
-  return methods;
+  return models;
+}
+
+std::string resolve_schedule(const ShadingParams& params, const Lights& lights) {
+  const std::string& schedule = params.schedule;
+  if (schedule == "auto") return lights.is_tree() ? "cut" : "flat";
+  if (schedule != "flat" && schedule != "interleave" && schedule != "cut")
+    throw Error(ErrorCode::bad_value,
+                "schedule: \"" + schedule + "\" is none of auto, flat, interleave, cut");
+  if (schedule == "cut" && !lights.is_tree())
+    throw Error(ErrorCode::bad_value,
+                "schedule: \"cut\" needs a light tree, and the lights are a list; make them with vsgl-gen "
+                "--method tree, or choose flat or interleave");
+  if (schedule != "cut" && lights.is_tree())
+    throw Error(ErrorCode::bad_value, "schedule: \"" + schedule +
+                                          "\" needs a list, and the lights are a tree; choose cut, or make a "
+                                          "list of one of its levels with vsgl-gen --level");
+  return schedule;
 }
 
 Indirect shade(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                const ShadingParams& params, gpu::Device& device, Report& report) {
-  const ShadingMethod& method = find_method(shading_methods(), params.method);
+  const LightModel& model = find_method(light_models(), params.light_model, "light_model");
   if (params.specular_lobe != "auto" && params.specular_lobe != "asg")
     throw Error(ErrorCode::bad_value, "specular_lobe: \"" + params.specular_lobe + "\" is none of auto, asg");
-  require_range("clamp", params.clamp, 1);
-  require_range("cbr", params.cbr, 1);
+  require_range("clamp", params.clamp, 0, 1);
+  require_range("cbr", params.cbr, 0, 1);
+  require_range("diffuse_scale", params.diffuse_scale, 1, 2);
   require_same_anchor("lights", lights.anchor, gbuffer);
   if (visibility) std::visit([&](const auto& v) { check_visibility(v, gbuffer, lights); }, *visibility);
-  return method.run(gbuffer, lights, visibility, params, device, report);
+  const Cut* cut = std::get_if<Cut>(visibility);
+  if (resolve_schedule(params, lights) == "cut") {
+    if (model.name != "fvpl")
+      throw Error(ErrorCode::bad_value, "light_model: \"" + model.name +
+                                            "\" cannot shade by a cut; choose fvpl, or make a list of lights "
+                                            "with vsgl-gen --level");
+    if (!cut)
+      throw Error(ErrorCode::bad_value,
+                  "schedule: \"cut\" needs the cut of this light tree and image; give "
+                  "what ismap or light-cut has made of them");
+    return shade_cut(gbuffer, lights, *cut, params, device, report);
+  }
+  if (cut)
+    throw Error(ErrorCode::bad_value,
+                "visibility: a cut, and the lights are a list; make shadow maps or "
+                "visibility bits of them with ismap");
+  return model.run(gbuffer, lights, visibility, params, device, report);
 }
 
 }  // namespace vsgl

@@ -5,10 +5,8 @@
 namespace vsgl {
 namespace {
 
-using interop::ShadingLight;
-
-std::uint32_t word_of(const ShadingLight& light) {
-  return light.index / 32;
+std::uint32_t word_of(std::uint32_t light) {
+  return light / 32;
 }
 
 gpu::Buffer upload_views(const ShadowMaps* maps, gpu::Device& device) {
@@ -39,8 +37,8 @@ void VisibilityBuffers::describe(interop::ShadingPush& push) const {
   push.relative_bias = static_cast<float>(maps_->relative_bias);
 }
 
-std::size_t VisibilityBuffers::row_of(const ShadingLight& light) const {
-  return light.index / static_cast<std::size_t>(maps_->columns);
+std::size_t VisibilityBuffers::row_of(std::uint32_t light) const {
+  return light / static_cast<std::size_t>(maps_->columns);
 }
 
 std::size_t VisibilityBuffers::row_bytes() const {
@@ -48,8 +46,8 @@ std::size_t VisibilityBuffers::row_bytes() const {
   return static_cast<std::size_t>(maps_->columns) * tile * tile * sizeof(float);
 }
 
-std::span<const ShadingLight> VisibilityBuffers::leading(std::span<const ShadingLight> lights,
-                                                         std::size_t receivers) const {
+std::span<const std::uint32_t> VisibilityBuffers::leading(std::span<const std::uint32_t> lights,
+                                                          std::size_t receivers) const {
   if (!maps_ && !bits_) return lights;
   const std::size_t visible = device_.limits().maxStorageBufferRange;
   const std::size_t units = visible / (maps_ ? row_bytes() : sizeof(std::uint32_t) * receivers);
@@ -59,24 +57,24 @@ std::span<const ShadingLight> VisibilityBuffers::leading(std::span<const Shading
                        : "visibility bits of " + std::to_string(receivers) + " pixels exceed") +
                     " the device's buffers of " + std::to_string(visible) + " bytes; use " +
                     (maps_ ? "smaller maps" : "a smaller image or shadow maps"));
-  const auto unit_of = [&](const ShadingLight& light) { return maps_ ? row_of(light) : word_of(light); };
+  const auto unit_of = [&](std::uint32_t light) { return maps_ ? row_of(light) : word_of(light); };
   std::size_t count = lights.size();
   while (unit_of(lights[count - 1]) - unit_of(lights[0]) >= units) --count;
   return lights.first(count);
 }
 
-gpu::BufferRange VisibilityBuffers::maps(std::span<const ShadingLight> lights) {
+gpu::BufferRange VisibilityBuffers::maps(std::span<const std::uint32_t> lights) {
   if (!maps_) return atlas_;
   const std::size_t first = row_of(lights.front()), rows = row_of(lights.back()) - first + 1;
   return {atlas_, first * row_bytes(), rows * row_bytes()};
 }
 
-void VisibilityBuffers::locate(std::span<const ShadingLight> lights, interop::ShadingPush& push) const {
+void VisibilityBuffers::locate(std::span<const std::uint32_t> lights, interop::ShadingPush& push) const {
   if (maps_) push.first_row = static_cast<std::uint32_t>(row_of(lights.front()));
   if (bits_) push.first_word = word_of(lights.front());
 }
 
-gpu::Buffer VisibilityBuffers::bits(std::span<const ShadingLight> lights,
+gpu::Buffer VisibilityBuffers::bits(std::span<const std::uint32_t> lights,
                                     std::span<const std::uint32_t> pixels) const {
   if (!bits_) return gpu::Buffer(device_, 0);
   const std::size_t image = static_cast<std::size_t>(bits_->width) * static_cast<std::size_t>(bits_->height);

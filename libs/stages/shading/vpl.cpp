@@ -27,8 +27,7 @@ Indirect shade_vpl(const GBuffer& gbuffer, const Lights& lights, const Visibilit
   kernel.spirv = vpl_comp_spv;
   kernel.lights = pack_points(lights);
   kernel.clamp_distance2 = static_cast<float>(floor * floor);
-  kernel.skip = params.skip;
-  const auto sums = run_shading(gbuffer, visibility, kernel, device, report);
+  const auto sums = run_shading(gbuffer, visibility, kernel, params, device, report);
   Indirect out = compose(gbuffer, sums, !params.skip);
   report.count("clamp_distance_m", floor);
   report.count("clamped_fraction", clamped_fraction(out, sums));

@@ -38,7 +38,7 @@ TEST(Pipelines, CommittedOnesAreRead) {
   EXPECT_EQ(vsgl.pdf_build.method, defaults.pdf_build.method);
   EXPECT_EQ(vsgl.vsgl_gen.method, defaults.vsgl_gen.method);
   EXPECT_EQ(vsgl.ismap->method, defaults.ismap->method);
-  EXPECT_EQ(vsgl.shade.method, defaults.shade.method);
+  EXPECT_EQ(vsgl.shade.light_model, "vsgl");
 }
 
 TEST_F(PipelineJson, EveryKindOfOptionArrives) {

@@ -54,7 +54,7 @@ bool same(const std::vector<interop::vec3>& a, const std::vector<interop::vec3>&
 class Bits : public testing::TestWithParam<const char*> {
  protected:
   const Mixed scene_;
-  const ShadingParams params_{.method = GetParam()};
+  const ShadingParams params_{.light_model = GetParam()};
 };
 
 TEST_P(Bits, AllVisibleIsAsWithoutVisibilityBitForBit) {
@@ -103,11 +103,12 @@ TEST_P(Bits, EachPixelSeesItsOwnLights) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Bits, testing::Values("vpl", "vsgl", "vsgl-2014"), [](const auto& entry) {
-  std::string name = entry.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Methods, Bits, testing::Values("fvpl", "vpl", "vsgl", "vsgl-2014"),
+                         [](const auto& entry) {
+                           std::string name = entry.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(Shading, RefusesBitsOfOtherInputs) {
   const Mixed scene;

@@ -25,7 +25,7 @@ TEST(Cancellation, TendsToTheSumOfExactPaths) {
       const BoxOptions options = box(ndf, 1e-5);
       const GBuffer gbuffer = test::box_gbuffer(options);
       const Lights lights = test::box_lights(options);
-      const Indirect image = test::shade_box(gbuffer, lights, {.method = method, .cbr = 0.05});
+      const Indirect image = test::shade_box(gbuffer, lights, {.light_model = method, .cbr = 0.05});
       test::expect_near_oracle(
           image, [&](std::size_t i) { return test::vpl_sum(gbuffer, i, lights); }, 2e-5);
       for (float share : image.cancellation) EXPECT_GT(share, 0.9999f);
@@ -40,10 +40,10 @@ TEST(Cancellation, BlendsByTheRatioOfSharpnesses) {
       const BoxOptions options = box(ndf, 0.05);
       const GBuffer gbuffer = test::box_gbuffer(options);
       const Lights lights = test::box_lights(options);
-      const ShadingParams params{.method = method, .cbr = 0.2};
+      const ShadingParams params{.light_model = method, .cbr = 0.2};
       const Indirect image = test::shade_box(gbuffer, lights, params);
       const auto oracle = [&](std::size_t i) {
-        return test::vsgl_sum(gbuffer, i, lights, params.method == "vsgl-2014", {.cbr = params.cbr});
+        return test::vsgl_sum(gbuffer, i, lights, params.light_model == "vsgl-2014", {.cbr = params.cbr});
       };
       test::expect_near_oracle(image, oracle, 2e-4);
       int partly = 0;
@@ -53,7 +53,7 @@ TEST(Cancellation, BlendsByTheRatioOfSharpnesses) {
         EXPECT_NEAR(image.cancellation[i], share, 0.02) << i;
         partly += share > 0.01 && share < 0.99;
       }
-      EXPECT_TRUE(partly > 10 || params.method == "vsgl-2014") << partly;
+      EXPECT_TRUE(partly > 10 || params.light_model == "vsgl-2014") << partly;
     }
 }
 
@@ -61,7 +61,7 @@ TEST(Cancellation, IsOffAtThresholdZero) {
   const BoxOptions options = box(interop::NDF_GGX, 1e-5);
   const GBuffer gbuffer = test::box_gbuffer(options);
   const Lights lights = test::box_lights(options);
-  const Indirect image = test::shade_box(gbuffer, lights, {.cbr = 0});
+  const Indirect image = test::shade_box(gbuffer, lights, {.light_model = "vsgl", .cbr = 0});
   EXPECT_TRUE(image.cancellation.empty());
   test::expect_near_oracle(
       image, [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, false); }, 2e-4);
@@ -73,7 +73,7 @@ TEST(Cancellation, LeavesLightsWithoutABrdfAlone) {
   const GBuffer gbuffer = test::box_gbuffer(options);
   Lights lights = test::box_lights(options);
   for (auto& light : lights.lights) light.ndf = interop::NDF_NONE;
-  const Indirect image = test::shade_box(gbuffer, lights, {.cbr = 1});
+  const Indirect image = test::shade_box(gbuffer, lights, {.light_model = "vsgl", .cbr = 1});
   for (float share : image.cancellation) EXPECT_EQ(share, 0.0f);
 }
 

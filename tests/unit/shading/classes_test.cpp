@@ -50,11 +50,11 @@ double relative_difference(const std::vector<interop::vec3>& a, const std::vecto
 
 TEST(Classes, AgreeWithTheGeneralPipeline) {
   const Lights lights = mixed_lights();
-  for (auto [method, tilt] : {std::pair{"vpl", 0.1}, {"vsgl", 0.1}, {"vsgl-2014", 0.0}}) {
+  for (auto [method, tilt] : {std::pair{"fvpl", 0.1}, {"vpl", 0.1}, {"vsgl", 0.1}, {"vsgl-2014", 0.0}}) {
     SCOPED_TRACE(testing::Message() << method << " tilt " << tilt);
     const GBuffer gbuffer = mixed_gbuffer(tilt);
-    const Indirect special = test::shade_box(gbuffer, lights, {.method = method});
-    const Indirect general = test::shade_box(gbuffer, lights, {.method = method, .skip = false});
+    const Indirect special = test::shade_box(gbuffer, lights, {.light_model = method});
+    const Indirect general = test::shade_box(gbuffer, lights, {.light_model = method, .skip = false});
     EXPECT_LT(relative_difference(special.diffuse, general.diffuse), 1e-6);
     EXPECT_LT(relative_difference(special.specular, general.specular), 1e-6);
     for (std::size_t i = 0; i < gbuffer.pixels.size(); i += 11)
@@ -78,7 +78,7 @@ TEST(Classes, SumMoreLightsThanABlockHolds) {
   const GBuffer gbuffer = test::box_gbuffer(options);
   const Lights lights = test::box_lights(options);
   test::expect_near_oracle(
-      test::shade_box(gbuffer, lights, {.cbr = 0}),
+      test::shade_box(gbuffer, lights, {.light_model = "vsgl", .cbr = 0}),
       [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, false); }, 1e-4);
 }
 
@@ -125,11 +125,11 @@ TEST(Degenerate, StaysFinite) {
     light.ndf = light.ndf == interop::NDF_NONE ? light.ndf : static_cast<std::uint32_t>(1 + i % 3);
     light.alpha = i % 4 == 1 ? 1.0f : interop::ALPHA_MIN;
   }
-  for (const char* method : {"vpl", "vsgl", "vsgl-2014"})
+  for (const char* method : {"fvpl", "vpl", "vsgl", "vsgl-2014"})
     for (const char* lobe : {"auto", "asg"})
       for (double cbr : {0.0, 1.0}) {
         const Indirect image = test::shade_box(
-            gbuffer, lights, {.method = method, .specular_lobe = lobe, .cbr = cbr, .skip = false});
+            gbuffer, lights, {.light_model = method, .specular_lobe = lobe, .cbr = cbr, .skip = false});
         for (std::size_t i = 0; i < image.diffuse.size(); ++i) {
           const Vec3 d = test::to_double(image.diffuse[i]), s = test::to_double(image.specular[i]);
           ASSERT_TRUE(std::isfinite(d.x + d.y + d.z + s.x + s.y + s.z))

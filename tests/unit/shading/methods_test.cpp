@@ -27,7 +27,7 @@ TEST(Vpl, EqualsTheSumOfExactPaths) {
       options.tilt = 0.2;
       const GBuffer gbuffer = test::box_gbuffer(options);
       const Lights lights = test::box_lights(options);
-      ShadingParams params{.method = "vpl", .clamp = 0};
+      ShadingParams params{.light_model = "vpl", .clamp = 0};
       test::expect_near_oracle(
           test::shade_box(gbuffer, lights, params),
           [&](std::size_t i) { return test::vpl_sum(gbuffer, i, lights); }, 2e-5);
@@ -38,7 +38,7 @@ TEST(Vpl, FloorsTheDistanceAndReportsWhatItTakesAway) {
   BoxOptions options;
   const GBuffer gbuffer = test::box_gbuffer(options);
   const Lights lights = test::box_lights(options);
-  ShadingParams params{.method = "vpl", .clamp = 0.5};
+  ShadingParams params{.light_model = "vpl", .clamp = 0.5};
   Report report;
   const Indirect image = shade(gbuffer, lights, nullptr, params, test::shared_device(), report);
   const OracleOptions clamped{.clamp_distance = 0.5 * gbuffer.scene_radius};
@@ -64,8 +64,8 @@ TEST(Vsgl, EqualsTheLibrarysIntegrals) {
         options.sigma = sigma;
         const GBuffer gbuffer = test::box_gbuffer(options);
         const Lights lights = test::box_lights(options);
-        ShadingParams params{.method = method, .cbr = 0};
-        const bool disk = params.method == "vsgl-2014";
+        ShadingParams params{.light_model = method, .cbr = 0};
+        const bool disk = params.light_model == "vsgl-2014";
         test::expect_near_oracle(
             test::shade_box(gbuffer, lights, params),
             [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, disk); },
@@ -79,7 +79,7 @@ TEST(Vsgl, TakesTheAnisotropicLobeOnRequest) {
     const BoxOptions options = box(receiver, interop::NDF_GGX);
     const GBuffer gbuffer = test::box_gbuffer(options);
     const Lights lights = test::box_lights(options);
-    ShadingParams params{.specular_lobe = "asg", .cbr = 0};
+    ShadingParams params{.light_model = "vsgl", .specular_lobe = "asg", .cbr = 0};
     test::expect_near_oracle(
         test::shade_box(gbuffer, lights, params),
         [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, false, {.asg = true}); }, 1e-4);
@@ -106,7 +106,7 @@ TEST(Shading, NothingArrivesFromBelowTheGeometricHorizon) {
       s.shading_normal = test::to_float(normalise(Vec3{1, 0, 1}));
       const auto arriving = [&](float height) {
         light.position = light.origin = {1, 0, height};
-        const Indirect image = test::shade_box(gbuffer, lights, {.method = method, .cbr = 0});
+        const Indirect image = test::shade_box(gbuffer, lights, {.light_model = method, .cbr = 0});
         return luminance(test::to_double(image.diffuse[0]) + test::specular_of(image, 0));
       };
       const double above = arriving(0.1f);
@@ -121,7 +121,7 @@ TEST(Shading, RefusesParametersOutsideTheirRange) {
   const GBuffer gbuffer = test::box_gbuffer({});
   const Lights lights = test::box_lights({});
   const auto run = [&](ShadingParams params) { return [=] { test::shade_box(gbuffer, lights, params); }; };
-  test::expect_error(ErrorCode::bad_value, {"method", "vsgl-2014"}, run({.method = "vsl"}));
+  test::expect_error(ErrorCode::bad_value, {"light_model", "vsgl-2014"}, run({.light_model = "vsl"}));
   test::expect_error(ErrorCode::bad_value, {"specular_lobe", "asg"}, run({.specular_lobe = "ASG"}));
   test::expect_error(ErrorCode::out_of_range, {"cbr"}, run({.cbr = -0.1}));
   test::expect_error(ErrorCode::out_of_range, {"clamp"}, run({.clamp = 1.5}));

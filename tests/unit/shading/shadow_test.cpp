@@ -67,9 +67,9 @@ TEST(Shadow, CoversTheProjectedOccluder) {
   constexpr int size = 64;
   const Ceiling scene(size);
   const Visibility maps = square_occluder(scene.lights, {0, 1, 0}, 0.5, 0.2);
-  for (const char* method : {"vpl", "vsgl", "vsgl-2014"}) {
+  for (const char* method : {"fvpl", "vpl", "vsgl", "vsgl-2014"}) {
     SCOPED_TRACE(method);
-    const ShadingParams params{.method = method};
+    const ShadingParams params{.light_model = method};
     const Indirect lit = test::shade_box(scene.gbuffer, scene.lights, params);
     const Indirect shadowed = test::shade_box(scene.gbuffer, scene.lights, params, &maps);
     double area = 0;
@@ -118,7 +118,7 @@ TEST(Shadow, EachOfManyLightsLooksUpItsOwnMap) {
   Ceiling scene(4);
   interop::Light light = scene.lights.lights[1];
   const double one =
-      static_cast<double>(test::shade_box(scene.gbuffer, scene.lights, {.method = "vpl"}).diffuse[5].x);
+      static_cast<double>(test::shade_box(scene.gbuffer, scene.lights, {.light_model = "vpl"}).diffuse[5].x);
   scene.lights.lights.assign(count, light);
 
   ShadowMaps maps;
@@ -134,7 +134,7 @@ TEST(Shadow, EachOfManyLightsLooksUpItsOwnMap) {
                       static_cast<std::ptrdiff_t>((i / 34 * side + y) * row + i % 34 * side),
                   side, 0.0f);
   const Visibility visibility = maps;
-  const Indirect image = test::shade_box(scene.gbuffer, scene.lights, {.method = "vpl"}, &visibility);
+  const Indirect image = test::shade_box(scene.gbuffer, scene.lights, {.light_model = "vpl"}, &visibility);
   EXPECT_NEAR(static_cast<double>(image.diffuse[5].x) / one, static_cast<double>(open), 1e-3);
 }
 

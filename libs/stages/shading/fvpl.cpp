@@ -1,0 +1,16 @@
+#include <cstdint>
+
+#include "cluster/cluster.h"
+#include "spirv/shading/fvpl.comp.glsl.h"  // after <cstdint>, which it needs
+#include "stages/shading/methods.h"
+#include "stages/shading/pass.h"
+
+namespace vsgl {
+
+Indirect shade_fvpl(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
+                    const ShadingParams& params, gpu::Device& device, Report& report) {
+  const ShadingKernel kernel{fvpl_comp_spv, pack_clusters(lights)};
+  return compose(gbuffer, run_shading(gbuffer, visibility, kernel, params, device, report), !params.skip);
+}
+
+}  // namespace vsgl
