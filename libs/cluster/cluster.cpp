@@ -23,18 +23,22 @@ double normal_sharpness(const Light& light) {
   return lobe_sharpness(std::sqrt(std::max(1 - deficit, 0.0)), deficit);
 }
 
+// A light may hold specular power although its representative point has no specular lobe: it gets the
+// broadest.
 void set_specular(Cluster& c, const Light& light) {
-  const double alpha2 = static_cast<double>(light.alpha) * static_cast<double>(light.alpha);
+  const bool has_lobe = light.ndf != interop::NDF_NONE;
+  const std::uint32_t ndf = has_lobe ? light.ndf : interop::NDF_GGX;
+  const double alpha = has_lobe ? static_cast<double>(light.alpha) : 1, alpha2 = alpha * alpha;
   const double cosine = std::max(dot(to_double(light.shading_normal), to_double(light.incident)), cos_min);
-  const double peak = light.ndf == interop::NDF_GGX ? std::numbers::inv_pi : 1;
-  c.incident_masking = static_cast<float>(1 + smith_lambda(light.ndf, alpha2, cosine));
+  const double peak = ndf == interop::NDF_GGX ? std::numbers::inv_pi : 1;
+  c.incident_masking = static_cast<float>(1 + smith_lambda(ndf, alpha2, cosine));
   c.shading_normal = light.shading_normal;
   c.incident_scale = static_cast<float>(peak / (4 * cosine));
   c.incident = light.incident;
   c.alpha2 = static_cast<float>(std::min(alpha2 + static_cast<double>(light.lobe_variance), 1.0));
   c.specular = light.power_specular;
   c.masking_alpha2 = static_cast<float>(alpha2);
-  c.ndf = light.ndf;
+  c.ndf = ndf;
 }
 
 Cluster pack(const Light& light, std::uint32_t index, double variance_floor) {
@@ -47,7 +51,7 @@ Cluster pack(const Light& light, std::uint32_t index, double variance_floor) {
   c.normal = light.normal;
   c.normal_sharpness = static_cast<float>(normal_sharpness(light));
   c.diffuse = to_float(std::numbers::inv_pi * to_double(light.power_diffuse));
-  if (light.ndf != interop::NDF_NONE && has_power(light.power_specular)) set_specular(c, light);
+  if (has_power(light.power_specular)) set_specular(c, light);
   return c;
 }
 

@@ -16,7 +16,7 @@ using interop::Cluster;
 constexpr double kFloorShare = 0.02;
 // From this roughness down the traversal starts a level deeper.
 constexpr float kNarrowAlpha = 0.05F;
-// eps for a relative error; measured, see docs/shading.md.
+// eps for a relative error; measured, see docs/cut.md.
 constexpr double kThresholdPerError = 0.15;
 // The mean is taken over the samples of at most so many tiles.
 constexpr int kMeanTiles = 256;
@@ -77,7 +77,9 @@ class Choice {
         receivers_(receivers),
         samples_(samples),
         criterion_(criterion),
-        visibility_(visibility) {}
+        visibility_(visibility) {
+    out_.samples = static_cast<std::size_t>(std::popcount(samples.present));
+  }
 
   // `start`: nodes that are looked at in any case.
   TileCut run(std::span<const std::uint32_t> start) {
@@ -106,7 +108,7 @@ class Choice {
   Node look_at(std::uint32_t index) {
     ClusterLight light;
     evaluate(clusters_[index], receivers_, light);
-    out_.evaluations += static_cast<std::size_t>(std::popcount(samples_.present));
+    out_.evaluations += out_.samples;
     Node node;
     node.node = index;
     node.visible = visibility_ ? visibility_(index, samples_) : samples_.present;
@@ -179,7 +181,7 @@ class Choice {
     std::ranges::sort(out_.entries, {}, &TileCut::Entry::node);
     double sum = 0;
     for (std::size_t k = 0; k < kTileSamples; ++k) sum += static_cast<double>(variance_[k]);
-    out_.error = std::sqrt(sum / std::max(std::popcount(samples_.present), 1));
+    out_.error = std::sqrt(sum / static_cast<double>(out_.samples));
   }
 
   const std::vector<Cluster>& clusters_;

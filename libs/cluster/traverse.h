@@ -43,7 +43,8 @@ struct TileCut {
   // Each lit leaf is one of them or below exactly one. In ascending order of nodes; those that no sample sees
   // are among them: other pixels may.
   std::vector<Entry> entries;
-  double error = 0;             // estimate, relative, RMS over the samples
+  double error = 0;  // estimate, relative, RMS over the samples
+  std::size_t samples = 0;
   std::size_t evaluations = 0;  // nodes times samples
 };
 
@@ -54,7 +55,7 @@ class TreeTraversal {
   // Throws invalid_data when `lights` is not a tree.
   TreeTraversal(const GBuffer& gbuffer, const Lights& lights, const std::vector<interop::Cluster>& clusters);
 
-  // For a relative error of the image (docs/shading.md has the calibration): threshold, floor from the mean
+  // For a relative error of the image (docs/cut.md has the calibration): threshold, floor from the mean
   // unshadowed light on some of the pixels, and the level to start at.
   CutCriterion criterion(double error) const;
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The cut: the nodes of a light tree that each tile of an image needs, within an error. docs/shading.md
-// states the criterion.
+// The cut: the nodes of a light tree that each tile of an image needs, within an error. docs/cut.md states
+// the criterion.
 
 #include "artifact/artifact.h"
 #include "base/report.h"
@@ -10,7 +10,6 @@ namespace vsgl {
 
 struct CutParams {
   double error = 0.02;  // relative error of the image that the user accepts, 1e-5..1
-  bool skip = true;     // leave out what the scene does not need
 };
 
 // Unshadowed: visibility is not known. Throws invalid_data when `lights` is not a tree or has another anchor,
