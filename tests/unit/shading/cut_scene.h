@@ -1,0 +1,89 @@
+#pragma once
+
+// Cuts of the box scene, and their sums in double precision.
+
+#include <functional>
+
+#include "cluster/cluster.h"
+#include "math/fvpl.h"
+#include "run.h"
+#include "stages/shading/methods.h"
+
+namespace vsgl::test {
+
+// All lights in every tile; no visibility.
+inline Cut whole_cut(const GBuffer& gbuffer, const Lights& lights) {
+  Cut cut;
+  cut.width = gbuffer.width;
+  cut.height = gbuffer.height;
+  cut.lights = static_cast<int>(lights.lights.size());
+  const auto count = static_cast<std::uint32_t>(lights.lights.size());
+  for (int tile = 0; tile < cut.columns() * cut.rows(); ++tile) {
+    cut.tiles.push_back({static_cast<std::uint32_t>(cut.nodes.size()), count, 0.01f});
+    for (std::uint32_t i = 0; i < count; ++i) cut.nodes.push_back(i);
+  }
+  return cut;
+}
+
+// Gives each entry a mask of its own: `sees(entry, x, y)` for the pixel of its tile.
+inline void add_masks(Cut& cut, const std::function<bool(std::size_t, std::uint32_t, std::uint32_t)>& sees) {
+  cut.mask_words.assign(interop::MASK_WORDS, 0xFFFFFFFFu);
+  for (std::size_t e = 0; e < cut.nodes.size(); ++e) {
+    cut.masks.push_back(static_cast<std::uint32_t>(cut.mask_words.size() / interop::MASK_WORDS));
+    std::uint32_t words[interop::MASK_WORDS] = {};
+    for (std::uint32_t y = 0; y < interop::TILE; ++y)
+      for (std::uint32_t x = 0; x < interop::TILE; ++x) {
+        const std::uint32_t bit = y * interop::TILE + x;
+        if (sees(e, x, y)) words[bit / 32] |= 1u << (bit % 32);
+      }
+    cut.mask_words.insert(cut.mask_words.end(), std::begin(words), std::end(words));
+  }
+}
+
+inline Indirect shade_by(const Cut& cut, const GBuffer& gbuffer, const Lights& lights,
+                         const ShadingParams& params = {}, Report* report = nullptr) {
+  Report unused;
+  return shade_cut(gbuffer, lights, cut, params, shared_device(), report ? *report : unused);
+}
+
+// Sum over the entries of the pixel's tile that it sees. Normals must not be bumped.
+inline Radiance cut_sum(const GBuffer& gbuffer, std::size_t index,
+                        const std::vector<interop::Cluster>& clusters, const Cut& cut) {
+  const OraclePixel p(gbuffer, index);
+  Radiance sum;
+  if (p.surface.id == interop::NO_INSTANCE) return sum;
+  const SpecularReceiver r = specular_receiver(p.surface.ndf, p.surface.alpha, p.normal, p.view);
+  const double across = p.is_specular() ? r.across : 0;
+  const std::uint32_t x = static_cast<std::uint32_t>(index) % static_cast<std::uint32_t>(gbuffer.width),
+                      y = static_cast<std::uint32_t>(index) / static_cast<std::uint32_t>(gbuffer.width);
+  const Cut::Tile& tile =
+      cut.tiles[y / interop::TILE * static_cast<std::uint32_t>(cut.columns()) + x / interop::TILE];
+  const std::uint32_t bit = y % interop::TILE * interop::TILE + x % interop::TILE;
+  for (std::uint32_t e = tile.first; e < tile.first + tile.count; ++e) {
+    if (cut.has_visibility() &&
+        (cut.mask_words[cut.masks[e] * interop::MASK_WORDS + bit / 32] >> bit % 32 & 1u) == 0)
+      continue;
+    const interop::Cluster& c = clusters[cut.nodes[e]];
+    const FvplView view =
+        fvpl_view(to_double(c.position) - p.position, static_cast<double>(c.inverse_variance));
+    const Vec3 emission = fvpl_emission(c, view.u, view.inverse_d2);
+    const FvplReflection reflection = fvpl_is_point(view.sharpness, across)
+                                          ? fvpl_point(r, view.u, view.inverse_d2)
+                                          : fvpl_extended(r, view, static_cast<double>(c.inverse_variance));
+    sum.diffuse += to_double(p.surface.diffuse) * emission * reflection.diffuse;
+    sum.specular += to_double(p.surface.specular) * emission * reflection.specular;
+  }
+  return sum;
+}
+
+// Largest difference of a layer, over its largest value.
+inline double difference(const std::vector<interop::vec3>& a, const std::vector<interop::vec3>& b) {
+  double peak = 0, worst = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    peak = std::max(peak, length(to_double(b[i])));
+    worst = std::max(worst, length(to_double(a[i]) - to_double(b[i])));
+  }
+  return peak > 0 ? worst / peak : worst;
+}
+
+}  // namespace vsgl::test
