@@ -54,12 +54,12 @@ RenderedFrame Renderer::render(scene::Scene scene) {
         [&] { frame.pdf = build_pdf(frame.rsm, &frame.gbuffer, pipeline_.pdf_build, device_, report_); });
   run(frame, "vsgl-gen", [&] {
     frame.lights =
-        generate_lights(frame.rsm, frame.pdf ? &*frame.pdf : nullptr, pipeline_.vsgl_gen, device_, report_);
+        generate_lights(frame.rsm, frame.pdf ? &*frame.pdf : nullptr, pipeline_.vsgl_gen, &device_, report_);
   });
   if (pipeline_.ismap)
     run(frame, "ismap", [&] {
       frame.visibility =
-          build_visibility(scene_, frame.lights, &frame.gbuffer, *pipeline_.ismap, &device_, report_);
+          build_visibility({scene_, frame.lights, &frame.gbuffer}, *pipeline_.ismap, &device_, report_);
     });
   run(frame, "shade", [&] {
     frame.image = shade(frame.gbuffer, frame.lights, frame.visibility ? &*frame.visibility : nullptr,

@@ -47,7 +47,7 @@ RTCRay make_ray(Vec3 origin, Vec3 direction, float nearest, float farthest) {
   return ray;
 }
 
-constexpr std::size_t kPacket = 16;
+constexpr std::size_t kPacket = PointPacket::kLanes;
 
 void put(RTCRay16& rays, std::size_t i, const RTCRay& ray) {
   rays.org_x[i] = ray.org_x;
@@ -59,6 +59,19 @@ void put(RTCRay16& rays, std::size_t i, const RTCRay& ray) {
   rays.tnear[i] = ray.tnear;
   rays.tfar[i] = ray.tfar;
   rays.mask[i] = ray.mask;
+}
+
+// `points` lifted off their surfaces to the side of `towards`, in place.
+void lift_packet(PointPacket& points, const PointPacket& towards, float lift) {
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const float side = (towards.x[i] - points.x[i]) * points.normal_x[i] +
+                       (towards.y[i] - points.y[i]) * points.normal_y[i] +
+                       (towards.z[i] - points.z[i]) * points.normal_z[i];
+    const float by = side < 0 ? -lift : lift;
+    points.x[i] += by * points.normal_x[i];
+    points.y[i] += by * points.normal_y[i];
+    points.z[i] += by * points.normal_z[i];
+  }
 }
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -200,6 +213,30 @@ std::uint32_t Tracer::occluded(const SurfacePoint& a, std::span<const SurfacePoi
     hidden |= impl_->occluded_packet(a, others.subspan(first, std::min(kPacket, others.size() - first)))
               << first;
   return hidden;
+}
+
+std::uint32_t Tracer::occluded(const PointPacket& a, const PointPacket& b, std::uint32_t active) const {
+  PointPacket start = a, end = b;
+  lift_packet(start, b, static_cast<float>(impl_->lift));
+  lift_packet(end, a, static_cast<float>(impl_->lift));
+  alignas(64) int valid[kPacket];
+  RTCRay16 rays;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    valid[i] = (active >> i & 1U) != 0 ? -1 : 0;
+    rays.org_x[i] = start.x[i], rays.org_y[i] = start.y[i], rays.org_z[i] = start.z[i];
+    rays.dir_x[i] = end.x[i] - start.x[i];
+    rays.dir_y[i] = end.y[i] - start.y[i];
+    rays.dir_z[i] = end.z[i] - start.z[i];
+    rays.tnear[i] = 0, rays.tfar[i] = 1, rays.time[i] = 0;
+    rays.mask[i] = ~0U, rays.id[i] = 0, rays.flags[i] = 0;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(valid, impl_->embree_scene.get(), &context, &rays);
+  std::uint32_t hidden = 0;
+  for (std::size_t i = 0; i < kPacket; ++i) hidden |= static_cast<std::uint32_t>(rays.tfar[i] < 0) << i;
+  return hidden & active;
 }
 
 bool Tracer::occluded_to_infinity(Vec3 a, Vec3 normal_a, Vec3 direction) const {

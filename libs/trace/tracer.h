@@ -2,6 +2,7 @@
 
 // Exact visibility and intersection on the CPU, by Embree.
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -34,6 +35,18 @@ struct SurfacePoint {
   Vec3 position, normal;
 };
 
+// 16 surface points in single precision, a lane each; normals unit.
+struct alignas(64) PointPacket {
+  static constexpr std::size_t kLanes = 16;
+  using Lanes = std::array<float, kLanes>;
+  Lanes x{}, y{}, z{}, normal_x{}, normal_y{}, normal_z{};
+
+  void set(std::size_t lane, interop::vec3 position, interop::vec3 normal) {
+    x[lane] = position.x, y[lane] = position.y, z[lane] = position.z;
+    normal_x[lane] = normal.x, normal_y[lane] = normal.y, normal_z[lane] = normal.z;
+  }
+};
+
 // A scene (which must outlive it) prepared for rays. Positions in metres relative to the scene's anchor.
 // Everything const may be called from many threads at once, and answers the same on any number of them.
 // Alpha cut-outs let rays through.
@@ -57,6 +70,9 @@ class Tracer {
   bool occluded(Vec3 a, Vec3 normal_a, Vec3 b, Vec3 normal_b) const;
   // The same for one point and up to 32 others at once, in bit i for the i-th; about twice as fast.
   std::uint32_t occluded(const SurfacePoint& a, std::span<const SurfacePoint> others) const;
+  // The same for the pairs of points in those lanes of two packets whose bits are set in `active`, in single
+  // precision throughout; fastest where rays start or end near one another. Bit i for lane i.
+  std::uint32_t occluded(const PointPacket& a, const PointPacket& b, std::uint32_t active) const;
   // Whether anything lies on the ray from `a` to infinity along the unit `direction`.
   bool occluded_to_infinity(Vec3 a, Vec3 normal_a, Vec3 direction) const;
 

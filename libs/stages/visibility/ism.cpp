@@ -173,8 +173,8 @@ FillCounts render_maps(gpu::Device& device, const PointPool& pool, std::span<con
 
 }  // namespace
 
-Visibility build_ism(const scene::Scene& scene, const Lights& lights, const GBuffer*,
-                     const VisibilityParams& params, gpu::Device* device, Report& report) {
+ShadowMaps render_shadow_maps(const scene::Scene& scene, const Lights& lights, const VisibilityParams& params,
+                              gpu::Device& device, Report& report) {
   check_atlas(lights, params);
   PointPool pool;
   if (lights.lights.empty()) {
@@ -191,13 +191,18 @@ Visibility build_ism(const scene::Scene& scene, const Lights& lights, const GBuf
   const auto jobs = plan_views(lights, params, pool, maps, report);
   if (jobs.empty()) return maps;
   const PhaseTimer timer(report, "maps");
-  const auto counts = render_maps(*device, pool, jobs, params, maps, report);
+  const auto counts = render_maps(device, pool, jobs, params, maps, report);
   const auto texels = static_cast<double>(jobs.size() * texels_of(params.tile));
   if (params.pull_push) {
     report.count("filled_fraction", static_cast<double>(counts.filled) / texels);
     report.count("replaced_fraction", static_cast<double>(counts.replaced) / texels);
   }
   return maps;
+}
+
+Visibility build_ism(const VisibilityInputs& inputs, const VisibilityParams& params, gpu::Device* device,
+                     Report& report) {
+  return render_shadow_maps(inputs.scene, inputs.lights, params, *device, report);
 }
 
 }  // namespace vsgl::visibility

@@ -15,6 +15,9 @@ void add_options(CLI::App& app, VisibilityParams& params) {
       ->check(CLI::Range(0.0, 4.0));
   app.add_flag_callback(
       "--no-pull-push", [&params] { params.pull_push = false; }, "ism: leave the holes between splats open");
+  app.add_option("--error", params.error, "of a tree: relative error of the image that the cut may make")
+      ->check(CLI::Range(1e-5, 1.0));
+  app.add_flag("--exact", params.exact, "rays: one for each node of a tile's cut and pixel");
 }
 
 }  // namespace vsgl

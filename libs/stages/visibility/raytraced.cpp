@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <optional>
 #include <span>
 
 #include "math/interop_vec.h"
+#include "stages/visibility/representative.h"
 #include "stages/visibility/views.h"
 #include "trace/tracer.h"
 
@@ -23,19 +23,6 @@ struct Emitter {
   SurfacePoint point;
   bool traced = true;
 };
-
-// The light's representative surface point. A light's normal is the mean of its cluster; where that is not
-// flat, the normal at the point itself is that of the surface which a ray from a little nearer to the source
-// meets.
-SurfacePoint representative(const interop::Light& light, double scene_radius, const trace::Tracer& tracer) {
-  const Vec3 origin = to_double(light.origin), mean_normal = to_double(light.normal);
-  if (light.normal_deficit == 0) return {origin, mean_normal};
-  const Vec3 incident = to_double(light.incident);
-  const double step = 1e-4 * scene_radius;
-  const auto hit = tracer.intersect(origin + step * incident, -incident);
-  if (!hit || std::abs(hit->distance - step) > 0.1 * step) return {origin, mean_normal};
-  return {origin, to_double(tracer.surface(*hit, incident).normal)};
-}
 
 std::vector<Emitter> make_emitters(const Lights& lights, bool skip_powerless, const trace::Tracer& tracer,
                                    Report& report) {
@@ -115,23 +102,25 @@ void report_bits(const VisibilityBits& bits, const GBuffer& gbuffer, std::size_t
 
 }  // namespace
 
-Visibility trace_visibility(const scene::Scene& scene, const Lights& lights, const GBuffer* gbuffer,
-                            const VisibilityParams& params, gpu::Device*, Report& report) {
+Visibility trace_visibility(const VisibilityInputs& inputs, const VisibilityParams& params, gpu::Device*,
+                            Report& report) {
+  const GBuffer& gbuffer = *inputs.gbuffer;
+  const Lights& lights = inputs.lights;
   VisibilityBits bits;
-  bits.width = gbuffer->width;
-  bits.height = gbuffer->height;
+  bits.width = gbuffer.width;
+  bits.height = gbuffer.height;
   bits.lights = static_cast<int>(lights.lights.size());
   bits.anchor = lights.anchor;
-  bits.words.resize(gbuffer->pixels.size() * static_cast<std::size_t>(bits.words_per_pixel()));
+  bits.words.resize(gbuffer.pixels.size() * static_cast<std::size_t>(bits.words_per_pixel()));
   std::optional<trace::Tracer> tracer;
   {
     const PhaseTimer timer(report, "build");
-    tracer.emplace(scene);
+    tracer.emplace(inputs.scene);
   }
   const PhaseTimer timer(report, "rays");
   const auto emitters = make_emitters(lights, params.skip_powerless, *tracer, report);
-  const std::size_t rays = trace_words(*tracer, *gbuffer, emitters, bits);
-  report_bits(bits, *gbuffer, rays, report);
+  const std::size_t rays = trace_words(*tracer, gbuffer, emitters, bits);
+  report_bits(bits, gbuffer, rays, report);
   return bits;
 }
 

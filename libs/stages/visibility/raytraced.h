@@ -5,7 +5,7 @@
 namespace vsgl::visibility {
 
 // Exact: a ray from each pixel to the surface point that represents each light.
-Visibility trace_visibility(const scene::Scene& scene, const Lights& lights, const GBuffer* gbuffer,
-                            const VisibilityParams& params, gpu::Device* device, Report& report);
+Visibility trace_visibility(const VisibilityInputs& inputs, const VisibilityParams& params,
+                            gpu::Device* device, Report& report);
 
 }  // namespace vsgl::visibility

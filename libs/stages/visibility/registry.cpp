@@ -3,11 +3,16 @@
 #include "base/error.h"
 #include "base/find_method.h"
 #include "stages/visibility/ism.h"
+#include "stages/visibility/rays.h"
 #include "stages/visibility/raytraced.h"
 #include "stages/visibility/visibility.h"
 
 namespace vsgl {
 namespace {
+
+// From this many triangles on `auto` expects a preview of a tree to be wanted; docs/visibility.md has the
+// measurement.
+constexpr std::size_t kHeavy = 800'000;
 
 template <class T>
 void check_range(const char* name, T value, T low, T high) {
@@ -20,13 +25,20 @@ void check_params(const VisibilityParams& params) {
   check_range("points per light", params.points_per_light, 1, 1 << 20);
   check_range("tile", params.tile, 8, 512);
   check_range("splat scale", params.splat_scale, 0.0, 4.0);
+  check_range("error", params.error, 1e-5, 1.0);
+  check_range("level", params.level, -1, 32);
   if (!is_power_of_two(params.tile))
     throw Error(ErrorCode::out_of_range,
                 "tile: " + std::to_string(params.tile) + " is not a power of two; try 64");
 }
 
-void check_lights(const scene::Scene& scene, const Lights& lights) {
-  if (!(scene.anchor == lights.anchor))
+void check_lights(const VisibilityMethod& method, const VisibilityInputs& inputs) {
+  const Lights& lights = inputs.lights;
+  if (!(lights.is_tree() ? method.for_trees : method.for_lists))
+    throw Error(ErrorCode::bad_value, "method: \"" + method.name + "\" is not for a " +
+                                          (lights.is_tree() ? "tree" : "list") +
+                                          " of lights; choose another one, or \"auto\"");
+  if (!(inputs.scene.anchor == lights.anchor))
     throw Error(ErrorCode::invalid_data,
                 "lights: their anchor is not the scene's; generate them from this scene");
   for (std::size_t i = 0; i < lights.lights.size(); ++i) {
@@ -37,45 +49,80 @@ void check_lights(const scene::Scene& scene, const Lights& lights) {
   }
 }
 
-void check_gbuffer(const VisibilityMethod& method, const GBuffer* gbuffer, const Lights& lights) {
+void check_gbuffer(const VisibilityMethod& method, const VisibilityInputs& inputs) {
   if (!method.needs_gbuffer) return;
-  if (!gbuffer)
+  if (!inputs.gbuffer)
     throw Error(ErrorCode::missing_option,
                 "gbuffer: method " + method.name + " needs one; give --gbuffer gbuffer.exr");
-  if (!(gbuffer->anchor == lights.anchor))
+  if (!(inputs.gbuffer->anchor == inputs.lights.anchor))
     throw Error(ErrorCode::invalid_data,
                 "gbuffer: its anchor is not the lights'; bake it from the same scene");
+}
+
+void check_cut(const VisibilityMethod& method, const VisibilityInputs& inputs) {
+  const Cut* cut = inputs.cut;
+  if (!cut) return;
+  if (!method.for_trees)
+    throw Error(ErrorCode::conflicting_options,
+                "cut: method " + method.name + " finds the visibility of a list of lights; drop --cut");
+  if (cut->width != inputs.gbuffer->width || cut->height != inputs.gbuffer->height ||
+      cut->lights != static_cast<int>(inputs.lights.lights.size()))
+    throw Error(ErrorCode::wrong_size,
+                "cut: it is of another image or another tree; choose it from this G-buffer and these lights");
+  if (!(cut->anchor == inputs.lights.anchor))
+    throw Error(ErrorCode::invalid_data, "cut: its anchor is not the lights'; choose it from these lights");
+}
+
+const VisibilityMethod& row(const std::string& name) {
+  return find_method(visibility_methods(), name);
 }
 
 }  // namespace
 
 const std::vector<VisibilityMethod>& visibility_methods() {
   static const std::vector<VisibilityMethod> methods = {
+      {.name = "auto",
+       .summary = "of a list ism; of a tree rays, or ratio where the scene is heavy",
+       .for_lists = true,
+       .for_trees = true},
       {.name = "ism",
        .summary = "imperfect shadow maps: surface points splatted into a hemisphere per light",
+       .for_lists = true,
        .needs_device = true,
        .run = visibility::build_ism},
       {.name = "raytraced",
        .summary = "exact: a ray from each pixel to the point that represents each light",
+       .for_lists = true,
        .needs_gbuffer = true,
        .run = visibility::trace_visibility},
+      {.name = "rays",
+       .summary = "the cut of a light tree, with rays from 16 pixels a tile and from all where they disagree",
+       .for_trees = true,
+       .needs_gbuffer = true,
+       .run = visibility::trace_cut},
   };
   return methods;
 }
 
-const VisibilityMethod& visibility_method(const std::string& name) {
-  return find_method(visibility_methods(), name);
+VisibilityChoice choose_visibility(const VisibilityInputs& inputs, const VisibilityParams& params) {
+  if (params.method != "auto") return {row(params.method), "asked for"};
+  if (!inputs.lights.is_tree()) return {row("ism"), "the lights are a list"};
+  const std::string triangles = std::to_string(inputs.scene.triangle_count()) + " triangles, ";
+  return {row("rays"), triangles + "at most " + std::to_string(kHeavy)};
 }
 
-Visibility build_visibility(const scene::Scene& scene, const Lights& lights, const GBuffer* gbuffer,
-                            const VisibilityParams& params, gpu::Device* device, Report& report) {
-  const auto& method = visibility_method(params.method);
+Visibility build_visibility(const VisibilityInputs& inputs, const VisibilityParams& params,
+                            gpu::Device* device, Report& report) {
+  const auto& [method, reason] = choose_visibility(inputs, params);
   check_params(params);
-  check_lights(scene, lights);
-  check_gbuffer(method, gbuffer, lights);
+  check_lights(method, inputs);
+  check_gbuffer(method, inputs);
+  check_cut(method, inputs);
   if (method.needs_device && !device)
     throw Error(ErrorCode::internal, "build_visibility: method " + method.name + " without a device");
-  return method.run(scene, lights, gbuffer, params, device, report);
+  report.count("visibility_method", method.name);
+  report.count("visibility_reason", reason);
+  return method.run(inputs, params, device, report);
 }
 
 }  // namespace vsgl

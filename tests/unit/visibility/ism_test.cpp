@@ -23,7 +23,7 @@ gpu::Device& device() {
 
 ShadowMaps shadow_maps(const scene::Scene& scene, const Lights& lights, const VisibilityParams& params,
                        gpu::Device& on, Report& report) {
-  return std::get<ShadowMaps>(build_visibility(scene, lights, nullptr, params, &on, report));
+  return std::get<ShadowMaps>(build_visibility({scene, lights}, params, &on, report));
 }
 
 ShadowMaps build(const scene::Scene& scene, const std::vector<interop::Light>& lights,

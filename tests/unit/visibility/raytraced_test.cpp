@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "../expect_error.h"
-#include "room.h"
+#include "lit_room.h"
 #include "stages/visibility/visibility.h"
 #include "trace/tracer.h"
 
@@ -13,24 +13,6 @@ namespace vsgl {
 namespace {
 
 using namespace vsgl::test;
-
-interop::Surface pixel_at(Vec3 position, Vec3 normal) {
-  interop::Surface s;
-  s.position = narrow(position);
-  s.normal = s.shading_normal = narrow(normal);
-  s.id = 0;
-  s.alpha = 1;
-  return s;
-}
-
-GBuffer gbuffer_of(std::vector<interop::Surface> pixels, int width) {
-  GBuffer out;
-  out.width = width;
-  out.height = static_cast<int>(pixels.size()) / width;
-  out.scene_radius = std::sqrt(6.0);
-  out.pixels = std::move(pixels);
-  return out;
-}
 
 // n x n pixels on the ceiling, looking down.
 GBuffer ceiling(int n) {
@@ -45,7 +27,7 @@ VisibilityBits trace(const scene::Scene& scene, const std::vector<interop::Light
                      const GBuffer& gbuffer, Report& report, bool skip = true) {
   const VisibilityParams params{.method = "raytraced", .skip_powerless = skip};
   return std::get<VisibilityBits>(
-      build_visibility(scene, make_lights(scene, lights), &gbuffer, params, nullptr, report));
+      build_visibility({scene, make_lights(scene, lights), &gbuffer}, params, nullptr, report));
 }
 VisibilityBits trace(const scene::Scene& scene, const std::vector<interop::Light>& lights,
                      const GBuffer& gbuffer) {
@@ -184,7 +166,7 @@ TEST(Raytraced, NeedsAGBufferOfTheSameScene) {
   const Lights lights = make_lights(scene, {make_light({0, 0, 0}, {0, 0, 1})});
   const auto run = [&](const GBuffer* gbuffer) {
     Report report;
-    build_visibility(scene, lights, gbuffer, {.method = "raytraced"}, nullptr, report);
+    build_visibility({scene, lights, gbuffer}, {.method = "raytraced"}, nullptr, report);
   };
   expect_error(ErrorCode::missing_option, {"gbuffer", "raytraced", "--gbuffer"}, [&] { run(nullptr); });
   GBuffer elsewhere = ceiling(2);

@@ -1,0 +1,132 @@
+#include "stages/visibility/cut_visibility.h"
+
+#include <bit>
+#include <optional>
+
+#include "cluster/cluster.h"
+
+namespace vsgl::visibility {
+namespace {
+
+// One tile's cut with what its samples see, and the number of looks that this took.
+struct SeenCut {
+  TileCut cut;
+  std::size_t looks = 0;
+
+  std::uint32_t look(const Sight& sight, std::uint32_t node, const TileSamples& samples) {
+    const Seen seen = see_from_samples(sight, node, samples);
+    looks += static_cast<std::size_t>(std::popcount(seen.facing));
+    return seen.visible;
+  }
+};
+
+// The light's share is unknown: every mixed node matters.
+SeenCut take_entries(const Cut& given, std::size_t tile, const TileSamples& samples, const Sight& sight) {
+  SeenCut out;
+  out.cut.error = static_cast<double>(given.tiles[tile].error);
+  for (std::uint32_t i = 0; i < given.tiles[tile].count; ++i) {
+    const std::uint32_t node = given.nodes[given.tiles[tile].first + i];
+    out.cut.entries.push_back({node, out.look(sight, node, samples), 1});
+  }
+  return out;
+}
+
+SeenCut choose_entries(const TreeTraversal& traversal, const CutCriterion& criterion,
+                       const TileSamples& samples, const Sight& sight) {
+  SeenCut out;
+  const auto look = [&](std::uint32_t node, const TileSamples& at) { return out.look(sight, node, at); };
+  out.cut = traversal.cut(samples, criterion, look);
+  return out;
+}
+
+struct Totals {
+  std::size_t sample_looks = 0, looks = 0, surfaces = 0, unmatched = 0, mixed = 0, dropped = 0;
+
+  void add(const TileVisibility& tile) {
+    looks += tile.looks;
+    surfaces += tile.surfaces;
+    unmatched += tile.unmatched;
+    mixed += tile.mixed;
+    dropped += tile.dropped;
+  }
+};
+
+Cut empty_cut(const GBuffer& gbuffer, const Lights& tree, double error) {
+  Cut cut;
+  cut.width = gbuffer.width;
+  cut.height = gbuffer.height;
+  cut.anchor = gbuffer.anchor;
+  cut.lights = static_cast<int>(tree.lights.size());
+  cut.error = error;
+  cut.mask_words.assign(interop::MASK_WORDS, ~0U);
+  return cut;
+}
+
+void append(Cut& cut, const TileVisibility& tile, const TileMask& surfaces) {
+  cut.tiles.push_back({static_cast<std::uint32_t>(cut.nodes.size()),
+                       static_cast<std::uint32_t>(tile.nodes.size()), static_cast<float>(tile.error)});
+  for (std::size_t i = 0; i < tile.nodes.size(); ++i) {
+    cut.nodes.push_back(tile.nodes[i]);
+    if (tile.masks[i] == surfaces) {
+      cut.masks.push_back(0);
+      continue;
+    }
+    cut.masks.push_back(static_cast<std::uint32_t>(cut.mask_words.size() / interop::MASK_WORDS));
+    cut.mask_words.insert(cut.mask_words.end(), tile.masks[i].words.begin(), tile.masks[i].words.end());
+  }
+}
+
+void report_cut(const Cut& cut, const Totals& totals, const char* looks, Report& report) {
+  const auto per = [](std::size_t amount, std::size_t of) {
+    return of == 0 ? 0.0 : static_cast<double>(amount) / static_cast<double>(of);
+  };
+  report.count("entries", cut.nodes.size());
+  report.count("entries_per_tile", per(cut.nodes.size(), cut.tiles.size()));
+  report.count("masks", cut.mask_words.size() / interop::MASK_WORDS);
+  report.count("mixed_entries", totals.mixed);
+  report.count("unseen_entries", totals.dropped);
+  report.count("unmatched_pixels", totals.unmatched);
+  report.count(looks, totals.sample_looks + totals.looks);
+  report.count(std::string(looks) + "_per_pixel", per(totals.sample_looks + totals.looks, totals.surfaces));
+}
+
+}  // namespace
+
+Cut find_cut_visibility(const GBuffer& gbuffer, const Lights& tree, const Cut* given, const Sight& sight,
+                        const VisibilityParams& params, Report& report) {
+  Cut cut = empty_cut(gbuffer, tree, given ? given->error : params.error);
+  std::vector<TileVisibility> tiles(static_cast<std::size_t>(cut.columns()) *
+                                    static_cast<std::size_t>(cut.rows()));
+  std::vector<TileMask> surfaces(tiles.size());
+  std::vector<std::size_t> sample_looks(tiles.size());
+  std::vector<interop::Cluster> clusters;
+  std::optional<TreeTraversal> traversal;
+  CutCriterion criterion;
+  if (!given) {
+    clusters = pack_clusters(tree);
+    traversal.emplace(gbuffer, tree, clusters);
+    criterion = traversal->criterion(params.error);
+  }
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
+    const TileSamples samples = tile_samples(gbuffer, static_cast<int>(tile));
+    if (samples.present == 0) continue;
+    const TileGrid grid(gbuffer, static_cast<int>(tile), samples);
+    const SeenCut seen = given ? take_entries(*given, tile, samples, sight)
+                               : choose_entries(*traversal, criterion, samples, sight);
+    tiles[tile] =
+        find_tile_visibility(grid, samples, seen.cut, sight, params.exact ? Detail::exact : Detail::adaptive);
+    surfaces[tile] = grid.surfaces();
+    sample_looks[tile] = seen.looks;
+  }
+  Totals totals;
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
+    append(cut, tiles[tile], surfaces[tile]);
+    totals.add(tiles[tile]);
+    totals.sample_looks += sample_looks[tile];
+  }
+  report_cut(cut, totals, sight.name(), report);
+  return cut;
+}
+
+}  // namespace vsgl::visibility

@@ -1,0 +1,113 @@
+#include "stages/visibility/tile_grid.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "math/interop_vec.h"
+
+namespace vsgl::visibility {
+namespace {
+
+constexpr std::uint32_t kSpacing = 5;  // pixels between samples
+// A sample this far off the pixel's plane, relative to its distance, has a quarter of the weight.
+constexpr double kPlaneTolerance = 0.15;
+// Samples with less weight do not continue the pixel's surface.
+constexpr double kMatch = 0.2;
+
+// How well the surface at `sample` continues that at `pixel`, 0..1. The cosine of their normals counts to its
+// 16th power.
+double continuity(const interop::Surface& pixel, const interop::Surface& sample) {
+  const Vec3 normal = to_double(pixel.normal);
+  const double cosine = dot(normal, to_double(sample.normal));
+  if (cosine <= 0) return 0;
+  const Vec3 v = to_double(sample.position) - to_double(pixel.position);
+  const double distance2 = dot(v, v), height = dot(v, normal);
+  const double slope2 = distance2 > 0 ? height * height / distance2 : 0;
+  const double off_plane = 1 + slope2 / (kPlaneTolerance * kPlaneTolerance);
+  const double power4 = cosine * cosine * cosine * cosine, power16 = power4 * power4 * power4 * power4;
+  return power16 / (off_plane * off_plane);
+}
+
+// Corner 2 j + i of cell (x, y) is this sample.
+std::uint32_t corner_sample(std::uint32_t cell_x, std::uint32_t cell_y, std::uint32_t corner) {
+  return 4 * (cell_y + corner / 2) + cell_x + corner % 2;
+}
+
+}  // namespace
+
+std::uint32_t TileMask::count() const {
+  std::uint32_t sum = 0;
+  for (const std::uint32_t word : words) sum += static_cast<std::uint32_t>(std::popcount(word));
+  return sum;
+}
+
+TileMask& TileMask::operator|=(const TileMask& other) {
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] |= other.words[i];
+  return *this;
+}
+
+TileMask& TileMask::operator&=(const TileMask& other) {
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] &= other.words[i];
+  return *this;
+}
+
+TileMask operator~(TileMask a) {
+  for (std::uint32_t& word : a.words) word = ~word;
+  return a;
+}
+
+TileGrid::TileGrid(const GBuffer& gbuffer, int tile, const TileSamples& samples)
+    : width_(static_cast<std::uint32_t>(gbuffer.width)) {
+  const auto height = static_cast<std::uint32_t>(gbuffer.height), number = static_cast<std::uint32_t>(tile);
+  const std::uint32_t columns = (width_ + interop::TILE - 1) / interop::TILE;
+  const std::uint32_t left = number % columns * interop::TILE, top = number / columns * interop::TILE;
+  first_ = top * width_ + left;
+  for (std::uint32_t y = 0; y < std::min(interop::TILE, height - top); ++y)
+    for (std::uint32_t x = 0; x < std::min(interop::TILE, width_ - left); ++x)
+      add_pixel(gbuffer, samples, x, y);
+}
+
+void TileGrid::add_pixel(const GBuffer& gbuffer, const TileSamples& samples, std::uint32_t x,
+                         std::uint32_t y) {
+  const std::uint32_t bit = y * interop::TILE + x;
+  const interop::Surface& surface = gbuffer.pixels[pixel(bit)];
+  if (surface.id == interop::NO_INSTANCE) return;
+  surfaces_.set(bit);
+  const std::uint32_t cell_x = std::min(x / kSpacing, kCells - 1U),
+                      cell_y = std::min(y / kSpacing, kCells - 1U);
+  const double right = static_cast<double>(x - cell_x * kSpacing) / kSpacing,
+               down = static_cast<double>(y - cell_y * kSpacing) / kSpacing;
+  std::array<double, 4> weights{};
+  double sum = 0;
+  for (std::uint32_t corner = 0; corner < 4; ++corner) {
+    const std::uint32_t sample = corner_sample(cell_x, cell_y, corner);
+    const double tent = (corner % 2 != 0 ? right : 1 - right) * (corner / 2 != 0 ? down : 1 - down);
+    if (tent == 0 || (samples.present >> sample & 1U) == 0) continue;
+    const double weight = continuity(surface, gbuffer.pixels[samples.pixel[sample]]);
+    if (weight < kMatch) continue;
+    weights[corner] = tent * weight;
+    sum += weights[corner];
+  }
+  if (sum == 0) return;
+  matched_.set(bit);
+  auto& outcomes = outcomes_[cell_y * kCells + cell_x];
+  for (std::uint32_t outcome = 0; outcome < outcomes.size(); ++outcome) {
+    double visible = 0;
+    for (std::uint32_t corner = 0; corner < 4; ++corner)
+      if ((outcome >> corner & 1U) != 0) visible += weights[corner];
+    if (2 * visible >= sum) outcomes[outcome].set(bit);
+  }
+}
+
+TileMask TileGrid::interpolate(std::uint32_t sample_bits) const {
+  TileMask seen;
+  for (std::uint32_t y = 0; y < kCells; ++y)
+    for (std::uint32_t x = 0; x < kCells; ++x) {
+      const std::uint32_t upper = sample_bits >> corner_sample(x, y, 0) & 3U,
+                          lower = sample_bits >> corner_sample(x, y, 2) & 3U;
+      seen |= outcomes_[y * kCells + x][upper | lower << 2];
+    }
+  return seen;
+}
+
+}  // namespace vsgl::visibility
