@@ -67,7 +67,7 @@ std::vector<std::uint32_t> tree_levels(const ExrFile& file, const ExrPart& part,
   std::uint32_t end = lights.empty() ? 0 : 1;
   for (std::uint32_t i = 0, next = end; i < lights.size(); ++i) {
     if (i == end) {
-      if (next == end) fail_at(file, part, "children.I", i - 1, "no light has this one among its children");
+      if (next == end) fail_at(file, part, "children.I", i, "no light has this one among its children");
       levels.push_back(end);
       end = next;
     }

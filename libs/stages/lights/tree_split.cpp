@@ -69,30 +69,95 @@ std::size_t split(std::span<LitTexel> texels, std::size_t residue, bool weighted
   return count;
 }
 
-std::span<LitTexel> texels_of(TexelTree& tree, std::uint32_t begin, std::uint32_t end) {
-  return std::span(tree.texels).subspan(begin, end - begin);
+// Inner nodes of a tree of so many texels, as split() makes it.
+constexpr std::uint32_t inner_nodes(std::uint32_t texels) {
+  return (texels + 1) / 3;
 }
 
-// Splits the nodes `inner`, whose children are the last nodes of the tree: all into halves, then all halves
-// into quarters.
-void split_level(TexelTree& tree, const std::vector<std::uint32_t>& inner, bool weighted) {
-  std::vector<std::uint32_t> middle(inner.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t k = 0; k < inner.size(); ++k) {
-    const TreeNode& node = tree.nodes[inner[k]];
-    middle[k] =
-        node.begin + static_cast<std::uint32_t>(split(texels_of(tree, node.begin, node.end), 2, weighted));
+// Of an inner node: child k holds the texels [split[k], split[k + 1]).
+using Split = std::array<std::uint32_t, 5>;
+
+// Splits the texels from the root down; large halves are tasks of their own.
+class Splitter {
+ public:
+  Splitter(std::vector<LitTexel>& texels, bool weighted)
+      : texels_(texels), weighted_(weighted), splits_(inner_nodes(count())) {}
+
+  // Of all inner nodes: each before those below it, and these child by child.
+  std::vector<Split> run() {
+#pragma omp parallel
+#pragma omp single
+    split_node(0, count(), 0);
+    return std::move(splits_);
   }
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t k = 0; k < 2 * inner.size(); ++k) {
-    const TreeNode& node = tree.nodes[inner[k / 2]];
-    const std::uint32_t begin = k % 2 == 0 ? node.begin : middle[k / 2];
-    const std::uint32_t end = k % 2 == 0 ? middle[k / 2] : node.end;
-    const auto quarter = begin + static_cast<std::uint32_t>(split(texels_of(tree, begin, end), 1, weighted));
-    const std::size_t child = node.children + k % 2 * 2;
-    tree.nodes[child] = {begin, quarter};
-    tree.nodes[child + 1] = {quarter, end};
+
+ private:
+  static constexpr std::uint32_t kTask = 2048;  // texels
+
+  std::uint32_t count() const {
+    return static_cast<std::uint32_t>(texels_.size());
   }
+
+  std::uint32_t middle(std::uint32_t begin, std::uint32_t end, std::size_t residue) {
+    const std::span part = std::span(texels_).subspan(begin, end - begin);
+    return begin + static_cast<std::uint32_t>(split(part, residue, weighted_));
+  }
+
+  // `index`: of the node among the inner ones.
+  void split_node(std::uint32_t begin, std::uint32_t end, std::uint32_t index) {
+    if (end - begin < 2) return;
+    const std::uint32_t half = middle(begin, end, 2);
+    const std::uint32_t first = index + 1, second = first + (half - begin) / 3;
+    splits_[index] = {begin, 0, half, 0, end};
+    if (end - begin > kTask) {
+#pragma omp task
+      splits_[index][1] = split_half(begin, half, first);
+#pragma omp task
+      splits_[index][3] = split_half(half, end, second);
+    } else {
+      splits_[index][1] = split_half(begin, half, first);
+      splits_[index][3] = split_half(half, end, second);
+    }
+  }
+
+  // Two children of a node; `index`: of the first of the two. Returns where the second one begins.
+  std::uint32_t split_half(std::uint32_t begin, std::uint32_t end, std::uint32_t index) {
+    const std::uint32_t quarter = middle(begin, end, 1);
+    split_node(begin, quarter, index);
+    split_node(quarter, end, index + inner_nodes(quarter - begin));
+    return quarter;
+  }
+
+  std::vector<LitTexel>& texels_;
+  bool weighted_;
+  std::vector<Split> splits_;
+};
+
+// Puts the nodes in order, level by level.
+TexelTree lay_out(std::vector<LitTexel> texels, const std::vector<Split>& splits) {
+  TexelTree tree{.texels = std::move(texels), .nodes = {}, .levels = {0}};
+  const std::size_t count = tree.texels.empty() ? 0 : 1 + 4 * splits.size();
+  tree.nodes.reserve(count);
+  std::vector<std::uint32_t> inner;  // of each node: its index among the inner ones, if it is one
+  inner.reserve(count);
+  const auto add = [&](std::uint32_t begin, std::uint32_t end, std::uint32_t index) {
+    tree.nodes.push_back({.begin = begin, .end = end});
+    inner.push_back(index);
+  };
+  if (count > 0) add(0, static_cast<std::uint32_t>(tree.texels.size()), 0);
+  for (std::size_t node = 0; node < count; ++node) {
+    if (node == tree.levels.back()) tree.levels.push_back(static_cast<std::uint32_t>(tree.nodes.size()));
+    if (tree.nodes[node].size() < 2) continue;
+    tree.nodes[node].children = static_cast<std::uint32_t>(tree.nodes.size());
+    const Split& split = splits[inner[node]];
+    std::uint32_t index = inner[node] + 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+      add(split[k], split[k + 1], index);
+      index += inner_nodes(split[k + 1] - split[k]);
+    }
+  }
+  if (count == 0) tree.levels.push_back(0);
+  return tree;
 }
 
 }  // namespace
@@ -114,23 +179,8 @@ std::vector<LitTexel> lit_texels(const Rsm& rsm, const Pdf* pdf) {
 }
 
 TexelTree split_texels(std::vector<LitTexel> texels, bool weighted) {
-  TexelTree tree{.texels = std::move(texels), .nodes = {}, .levels = {0}};
-  if (tree.texels.empty()) tree.levels.push_back(0);
-  if (tree.texels.empty()) return tree;
-  tree.nodes.push_back({.begin = 0, .end = static_cast<std::uint32_t>(tree.texels.size())});
-  for (std::vector<std::uint32_t> inner;; inner.clear()) {
-    const std::uint32_t first = tree.levels.back();
-    const auto end = static_cast<std::uint32_t>(tree.nodes.size());
-    tree.levels.push_back(end);
-    for (std::uint32_t node = first; node < end; ++node) {
-      if (tree.nodes[node].size() < 2) continue;
-      tree.nodes[node].children = end + 4 * static_cast<std::uint32_t>(inner.size());
-      inner.push_back(node);
-    }
-    if (inner.empty()) return tree;
-    tree.nodes.resize(end + 4 * inner.size());
-    split_level(tree, inner, weighted);
-  }
+  const std::vector<Split> splits = Splitter(texels, weighted).run();
+  return lay_out(std::move(texels), splits);
 }
 
 }  // namespace vsgl
