@@ -51,7 +51,10 @@ Cluster pack(const Light& light, std::uint32_t index, double variance_floor) {
   c.normal = light.normal;
   c.normal_sharpness = static_cast<float>(normal_sharpness(light));
   c.diffuse = to_float(std::numbers::inv_pi * to_double(light.power_diffuse));
-  if (has_power(light.power_specular)) set_specular(c, light);
+  if (has_power(light.power_specular))
+    set_specular(c, light);
+  else
+    c.incident_masking = c.alpha2 = c.masking_alpha2 = 1;
   return c;
 }
 

@@ -86,7 +86,7 @@ inline interop::Light box_light(const BoxOptions& options, Uniform& uniform) {
   const Vec3 incident = normalise(normal + 0.5 * uniform.vector());
   const Vec3 shading_normal = normalise(normal + options.tilt * uniform.vector());
   const double sigma = options.sigma * std::pow(3.0, 2 * uniform() - 1);
-  interop::Light light;
+  interop::Light light{};
   light.position = light.origin = to_float(position);
   light.variance = static_cast<float>(sigma * sigma);
   light.power_diffuse = {0.2f, 0.1f, 0.1f};

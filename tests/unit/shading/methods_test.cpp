@@ -73,6 +73,55 @@ TEST(Vsgl, EqualsTheLibrarysIntegrals) {
       }
 }
 
+// Clusters of parallel and of spread normals. The faster forms err as above.
+TEST(Fvpl, EqualsTheLibrarysIntegrals) {
+  for (std::uint32_t receiver : kNdfs)
+    for (std::uint32_t emission : kNdfs)
+      for (double sigma : {1e-3, 0.05, 0.5}) {
+        SCOPED_TRACE(testing::Message()
+                     << "receiver " << receiver << " emission " << emission << " sigma " << sigma);
+        BoxOptions options = box(receiver, emission);
+        options.sigma = sigma;
+        const GBuffer gbuffer = test::box_gbuffer(options);
+        Lights lights = test::box_lights(options);
+        for (std::size_t i = 0; i < lights.lights.size(); ++i) {
+          lights.lights[i].normal_deficit = i % 3 == 0 ? 0.0f : 0.1f * static_cast<float>(i % 5);
+          lights.lights[i].lobe_variance = 0.02f * static_cast<float>(i % 4);
+        }
+        test::expect_near_oracle(
+            test::shade_box(gbuffer, lights, {}),
+            [&](std::size_t i) { return test::fvpl_sum(gbuffer, i, lights); }, sigma < 0.1 ? 2e-4 : 1e-3);
+      }
+}
+
+// Small footprints of bumped surfaces: the exact virtual point light.
+TEST(Fvpl, IsAVplWhereItIsSmall) {
+  for (std::uint32_t receiver : kNdfs)
+    for (std::uint32_t emission : {receiver, interop::NDF_GGX}) {
+      SCOPED_TRACE(testing::Message() << "receiver " << receiver << " emission " << emission);
+      BoxOptions options = box(receiver, emission);
+      options.sigma = 1e-5;
+      options.tilt = 0.2;
+      const GBuffer gbuffer = test::box_gbuffer(options);
+      const Lights lights = test::box_lights(options);
+      test::expect_near_oracle(
+          test::shade_box(gbuffer, lights, {}),
+          [&](std::size_t i) { return test::vpl_sum(gbuffer, i, lights); }, 1e-4);
+    }
+}
+
+// Specular power whose representative point has no specular lobe is emitted by the broadest.
+TEST(Fvpl, KeepsSpecularPowerWithoutALobe) {
+  const GBuffer gbuffer = test::box_gbuffer({});
+  Lights lights = test::box_lights(box(interop::NDF_NONE, interop::NDF_GGX));
+  for (interop::Light& light : lights.lights) light.alpha = 1;
+  const Indirect broadest = test::shade_box(gbuffer, lights, {});
+  for (interop::Light& light : lights.lights) light.ndf = interop::NDF_NONE;
+  const Indirect without = test::shade_box(gbuffer, lights, {});
+  for (std::size_t i = 0; i < broadest.diffuse.size(); ++i)
+    ASSERT_EQ(broadest.diffuse[i].x, without.diffuse[i].x);
+}
+
 TEST(Vsgl, TakesTheAnisotropicLobeOnRequest) {
   for (std::uint32_t receiver : {interop::NDF_GGX, interop::NDF_BECKMANN, interop::NDF_PHONG}) {
     SCOPED_TRACE(receiver);
@@ -89,7 +138,7 @@ TEST(Vsgl, TakesTheAnisotropicLobeOnRequest) {
 // A light below the plane of a pixel whose shading normal leans towards it.
 TEST(Shading, NothingArrivesFromBelowTheGeometricHorizon) {
   for (std::uint32_t ndf : kNdfs)
-    for (const char* method : {"vpl", "vsgl", "vsgl-2014"}) {
+    for (const char* method : {"fvpl", "vpl", "vsgl", "vsgl-2014"}) {
       SCOPED_TRACE(testing::Message() << method << " " << ndf);
       BoxOptions options = box(ndf, ndf);
       options.width = options.height = options.lights = 1;

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "box_scene.h"
+#include "cluster/cluster.h"
+#include "math/fvpl.h"
 #include "math/microfacet.h"
 #include "math/specular_lobe.h"
 #include "math/vsgl.h"
@@ -66,6 +68,21 @@ inline Radiance vpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights&
     const Radiance part = exact_light(p, light, normalise(v), 1 / d2);
     sum.diffuse += part.diffuse;
     sum.specular += part.specular;
+  }
+  return sum;
+}
+
+inline Radiance fvpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights& lights) {
+  const OraclePixel p(gbuffer, index);
+  const SpecularReceiver r = specular_receiver(p.surface.ndf, p.surface.alpha, p.normal, p.view);
+  Radiance sum;
+  for (const interop::Cluster& cluster : pack_clusters(lights)) {
+    const double inverse_variance = cluster.inverse_variance;
+    const FvplView view = fvpl_view(to_double(cluster.position) - p.position, inverse_variance);
+    const Vec3 emission = fvpl_emission(cluster, view.u, view.inverse_d2);
+    const FvplReflection reflection = fvpl_extended(r, view, inverse_variance);
+    sum.diffuse += to_double(p.surface.diffuse) * emission * reflection.diffuse;
+    sum.specular += to_double(p.surface.specular) * emission * reflection.specular;
   }
   return sum;
 }
