@@ -7,7 +7,8 @@
 VSGL_INTEROP_BEGIN
 
 // A Light with everything that does not depend on the receiver computed beforehand; seven vec4 in a texel
-// buffer. Without power all of it is 0.
+// buffer. Without power all of it is 0; without specular power the lobe is a broad one, so that kernels for
+// mixed clusters stay finite.
 struct Cluster {
   vec3 position;           // mean, m, relative to the anchor
   float inverse_variance;  // 1 / sigma^2, 1/m^2, finite
