@@ -14,7 +14,7 @@ struct CutBlock {
   uint receivers;  // how many, 1..CUT_BLOCK
   uint points;     // items from here on: like points to all receivers, of parallel normals, without specular
                    // emission
-  uint glossy;     // from here on: the same with specular emission
+  uint distant;    // from here on: like points to all receivers
   uint general;    // from here on: all others
   uint end;
 };

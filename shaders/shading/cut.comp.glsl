@@ -76,6 +76,10 @@ Cluster load_cluster(uint index) {
   return c;
 }
 
+vec3 cluster_emission(Cluster c, vec3 u, float inverse_d2) {
+  return fast_fvpl_emission(EMISSION == NDF_NONE ? NDF_NONE : c.ndf, c, u, inverse_d2);
+}
+
 struct Sums {
   vec3 diffuse, specular;
 };
@@ -101,22 +105,21 @@ void add_point(Receiver r, Cluster c, float seen, inout Sums sums) {
   add(sums, (seen * inverse_d * inverse_d) * fvpl_emission_diffuse(c, u), exact_reflection(r, u));
 }
 
-// The same with specular emission.
-void add_glossy(Receiver r, Cluster c, float seen, inout Sums sums) {
+// Like a point, of any emission.
+void add_distant(Receiver r, Cluster c, float seen, inout Sums sums) {
   vec3 v = c.position - r.position;
   float inverse_d = inversesqrt(dot(v, v));
   float inverse_d2 = inverse_d * inverse_d;
   vec3 u = v * inverse_d;
-  add(sums, (seen * inverse_d2) * fast_fvpl_emission_flat(c.ndf, c, u, inverse_d2), exact_reflection(r, u));
+  add(sums, (seen * inverse_d2) * cluster_emission(c, u, inverse_d2), exact_reflection(r, u));
 }
 
 // Any cluster, as a footprint.
 void add_general(Receiver r, Cluster c, float seen, inout Sums sums) {
   vec3 v = c.position - r.position;
   FvplView view = fvpl_view(v, c.inverse_variance);
-  vec3 emission = fast_fvpl_emission(EMISSION == NDF_NONE ? NDF_NONE : c.ndf, c, view.u, view.inverse_d2);
   float above = BUMPED == 0 ? seen : seen * geometric_horizon(r, v, c.inverse_variance);
-  add(sums, above * emission, receive(r, fvpl_incoming(view, c.inverse_variance)));
+  add(sums, above * cluster_emission(c, view.u, view.inverse_d2), receive(r, fvpl_incoming(view, c.inverse_variance)));
 }
 
 void main() {
@@ -128,17 +131,15 @@ void main() {
     receivers[j] = make_receiver(place, surfaces[place], push.camera);
     sums[j] = Sums(vec3(0.0), vec3(0.0));
   }
-  for (uint i = block.points; i < block.glossy; ++i) {
+  for (uint i = block.points; i < block.distant; ++i) {
     Item item = load_item(i);
     Cluster c = load_diffuse(item.cluster);
     [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_point(receivers[j], c, visibility(item, j), sums[j]);
   }
-  if (EMISSION != NDF_NONE) {
-    for (uint i = block.glossy; i < block.general; ++i) {
-      Item item = load_item(i);
-      Cluster c = load_cluster(item.cluster);
-      [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_glossy(receivers[j], c, visibility(item, j), sums[j]);
-    }
+  for (uint i = block.distant; i < block.general; ++i) {
+    Item item = load_item(i);
+    Cluster c = load_cluster(item.cluster);
+    [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_distant(receivers[j], c, visibility(item, j), sums[j]);
   }
   for (uint i = block.general; i < block.end; ++i) {
     Item item = load_item(i);

@@ -98,7 +98,7 @@ void report_classes(std::span<const std::uint8_t> kinds, const CutClusters& clus
 
 void report_counts(const CutCounts& counts, std::size_t seen, bool skip, Report& report) {
   report.count("items_point", counts.points);
-  report.count("items_glossy", counts.glossy);
+  report.count("items_distant", counts.distant);
   report.count("items_general", counts.general);
   report.count("evaluations", counts.evaluations);
   report.count("evaluations_per_pixel",

@@ -118,8 +118,8 @@ class BlockLists {
       }
       const std::uint32_t index = clusters.entries[e];
       const Cluster& c = clusters.clusters[index];
-      const bool point = c.normal_sharpness > interop::CLUSTER_FLAT && bounds_.is_point(c);
-      std::vector<std::uint32_t>& list = lists[!point ? 2 : has_specular(c) ? 1 : 0];
+      const bool plain = c.normal_sharpness > interop::CLUSTER_FLAT && !has_specular(c);
+      std::vector<std::uint32_t>& list = lists[!bounds_.is_point(c) ? 2 : plain ? 0 : 1];
       list.push_back(index);
       if (!cut_.has_visibility()) continue;
       list.push_back(static_cast<std::uint32_t>(mask));
@@ -127,7 +127,7 @@ class BlockLists {
     }
   }
 
-  std::array<std::vector<std::uint32_t>, 3> lists;  // points, glossy, general
+  std::array<std::vector<std::uint32_t>, 3> lists;  // points, distant, general
   std::size_t unseen = 0;
 
  private:
@@ -213,17 +213,17 @@ CutLists build_lists(const GBuffer& gbuffer, const Cut& cut, const CutClusters& 
   const std::size_t words = cut.has_visibility() ? interop::CUT_MASKED_ITEM : interop::CUT_ITEM;
   std::size_t next = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const std::size_t points = lists[b][0].size() / words, glossy = lists[b][1].size() / words,
+    const std::size_t points = lists[b][0].size() / words, distant = lists[b][1].size() / words,
                       general = lists[b][2].size() / words;
     const auto at = [](std::size_t item) { return static_cast<std::uint32_t>(item); };
     out.blocks.push_back({blocks[b].first - blocks.front().first, blocks[b].count, at(next),
-                          at(next + points), at(next + points + glossy),
-                          at(next + points + glossy + general)});
+                          at(next + points), at(next + points + distant),
+                          at(next + points + distant + general)});
     counts.points += points;
-    counts.glossy += glossy;
+    counts.distant += distant;
     counts.general += general;
-    counts.evaluations += (points + glossy + general) * blocks[b].count;
-    next += points + glossy + general;
+    counts.evaluations += (points + distant + general) * blocks[b].count;
+    next += points + distant + general;
   }
   out.items.resize(next * words);
 #pragma omp parallel for schedule(static)

@@ -37,7 +37,7 @@ CutClusters gather_clusters(const Lights& lights, const Cut& cut);
 
 // Counts of the items of lists, and of evaluations (items times receivers).
 struct CutCounts {
-  std::size_t points = 0, glossy = 0, general = 0;
+  std::size_t points = 0, distant = 0, general = 0;
   std::size_t unseen = 0;  // entries that no receiver of a block sees, left out
   std::size_t evaluations = 0;
 };
