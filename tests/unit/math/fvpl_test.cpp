@@ -89,7 +89,7 @@ TEST(Fvpl, StaysFiniteInItsOwnPlace) {
 
 // The emitted power: all of the diffuse power however the normals spread; of the specular power a share that
 // a wider lobe may exceed, since masking is that of the surface itself: at most (1 + Lambda of the widened
-// lobe) / (1 + Lambda of the surface) of the direction to the source (Phong, whose Lambda is Beckmann's: 4%
+// lobe) / (1 + Lambda of the surface) of the direction to the source (Phong, whose Lambda is Beckmann's: 7%
 // more).
 TEST(Fvpl, EmitsNoMoreThanItsPower) {
   constexpr int kRows = 400, kColumns = 100;
@@ -111,7 +111,7 @@ TEST(Fvpl, EmitsNoMoreThanItsPower) {
         const Cluster c = cluster(1e-6, 1e6, ndf, alpha, {std::sin(tilt), 0, cosine}, lobe_variance);
         const double excess =
             (1 + smith_lambda(ndf, wide, cosine)) / (1 + smith_lambda(ndf, alpha * alpha, cosine));
-        EXPECT_LT(power(c).y, 1.05 * excess) << ndf << " " << tilt << " " << lobe_variance;
+        EXPECT_LT(power(c).y, 1.08 * excess) << ndf << " " << tilt << " " << lobe_variance;
         EXPECT_GT(power(c).y, 0.4) << ndf << " " << tilt << " " << lobe_variance;
       }
 }
