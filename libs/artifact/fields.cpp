@@ -130,7 +130,7 @@ ExrLevel pack(std::span<const Field> fields, Structs structs, int width, int hei
       if (is_uint(field)) plane.emplace<std::vector<std::uint32_t>>();
       std::visit(
           [&](auto& values) {
-            values.resize(structs.size);
+            values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
             columns.push_back({bytes_of(values), field.offset + c * sizeof(float)});
           },
           plane);

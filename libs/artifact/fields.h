@@ -51,7 +51,7 @@ struct Structs {
       : data(reinterpret_cast<std::byte*>(items.data())), size(items.size()), stride(sizeof(T)) {}
 };
 
-// A width x height level with the table's channels.
+// A width x height level with the table's channels; pixels beyond the structs are 0.
 ExrLevel pack(std::span<const Field> fields, Structs structs, int width, int height, bool with_specular);
 
 // The way back. Throws wrong_size unless the level has `width` x `height` pixels; missing_channel,

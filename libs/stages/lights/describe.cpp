@@ -1,25 +1,25 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
-#include "math/vec.h"
+#include "math/interop_vec.h"
 #include "stages/lights/lights.h"
+#include "stages/lights/methods.h"
 
 namespace vsgl {
 namespace {
 
 using nlohmann::ordered_json;
 
-Vec3 to_double(interop::vec3 v) {
-  return {v.x, v.y, v.z};
-}
 ordered_json to_json(interop::vec3 v) {
   return {v.x, v.y, v.z};
 }
 
+// Of a tree, what its leaves emit.
 Vec3 emitted_power(const Lights& lights) {
   Vec3 sum;
   for (const interop::Light& light : lights.lights)
-    sum += to_double(light.power_diffuse) + to_double(light.power_specular);
+    if (light.children == 0) sum += to_double(light.power_diffuse) + to_double(light.power_specular);
   return sum;
 }
 
@@ -63,6 +63,32 @@ std::vector<int> level_histogram(const Lights& lights) {
   return histogram;
 }
 
+// Radius: root mean square distance of a node's points from their mean.
+ordered_json tree_level(std::span<const interop::Light> nodes) {
+  std::size_t leaves = 0;
+  double sum = 0, largest = 0;
+  for (const interop::Light& node : nodes) {
+    const double radius = std::sqrt(2 * static_cast<double>(node.variance));
+    leaves += node.children == 0;
+    sum += radius;
+    largest = std::max(largest, radius);
+  }
+  return {{"nodes", nodes.size()},
+          {"leaves", leaves},
+          {"radius_m", {{"mean", sum / static_cast<double>(nodes.size())}, {"max", largest}}}};
+}
+
+ordered_json tree_statistics(const Lights& tree) {
+  ordered_json levels = ordered_json::array();
+  for (std::size_t level = 0; level + 1 < tree.levels.size() && !tree.lights.empty(); ++level)
+    levels.push_back(tree_level(
+        std::span(tree.lights).subspan(tree.levels[level], tree.levels[level + 1] - tree.levels[level])));
+  const auto texels = std::count_if(tree.lights.begin(), tree.lights.end(), [](const interop::Light& light) {
+    return light.children == 0 && has_power(light);
+  });
+  return {{"lit_texels", texels}, {"depth", levels.size()}, {"levels", levels}};
+}
+
 ordered_json to_json(const interop::Light& light) {
   return {{"position_m", to_json(light.position)},
           {"variance_m2", light.variance},
@@ -79,9 +105,11 @@ ordered_json to_json(const interop::Light& light) {
           {"incident", to_json(light.incident)},
           {"alpha", light.alpha},
           {"ndf", light.ndf},
+          {"lobe_variance", light.lobe_variance},
           {"level", light.level},
           {"texel", light.texel},
-          {"layer", light.layer}};
+          {"layer", light.layer},
+          {"children", light.children}};
 }
 
 }  // namespace
@@ -106,6 +134,7 @@ ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& 
     out["level"]["histogram"] = level_histogram(lights);
     out["variance_m2"] = range_of(lights, &interop::Light::variance);
   }
+  if (lights.is_tree()) out["tree"] = tree_statistics(lights);
   if (dump) {
     out["lights"] = ordered_json::array();
     for (const interop::Light& light : lights.lights) out["lights"].push_back(to_json(light));

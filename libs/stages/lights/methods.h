@@ -10,6 +10,11 @@ namespace vsgl {
 // a light.
 inline constexpr double footprint_floor = 1e-6;
 
+inline bool has_power(const interop::Light& light) {
+  const interop::vec3 &d = light.power_diffuse, &s = light.power_specular;
+  return d.x + d.y + d.z + s.x + s.y + s.z > 0;
+}
+
 LightSet generate_vpl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_fis_2014(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_fis_2016(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);

@@ -39,11 +39,6 @@ void check_density(const Rsm& rsm, const Pdf& pdf) {
   if (!same) throw Error(ErrorCode::missing_part, "density: its layers are not those of the RSM" + remedy);
 }
 
-bool has_power(const interop::Light& light) {
-  const interop::vec3 &d = light.power_diffuse, &s = light.power_specular;
-  return d.x + d.y + d.z + s.x + s.y + s.z > 0;
-}
-
 bool is_dark(const Pdf& pdf) {
   return std::all_of(pdf.layers.begin(), pdf.layers.end(),
                      [](const Pdf::Layer& layer) { return layer.pyramid.back() <= 0; });

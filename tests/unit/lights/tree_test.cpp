@@ -323,6 +323,22 @@ TEST(Tree, ADensityWeightsTheSplits) {
   EXPECT_GT(worst_share(tree_of(rsm)), 0.05);
 }
 
+TEST(Tree, DescribesItsLevels) {
+  const Lights tree = tree_of(only(room(), 5));
+  const auto json = describe(tree, room(), {}, false).at("tree");
+  EXPECT_EQ(json.at("lit_texels"), 5);
+  EXPECT_EQ(json.at("depth"), 3);
+  const int nodes[] = {1, 4, 4}, leaves[] = {0, 3, 4};
+  for (std::size_t level = 0; level < 3; ++level) {
+    EXPECT_EQ(json.at("levels")[level].at("nodes"), nodes[level]);
+    EXPECT_EQ(json.at("levels")[level].at("leaves"), leaves[level]);
+  }
+  const double radius = std::sqrt(2 * static_cast<double>(tree.lights[0].variance));
+  EXPECT_EQ(json.at("levels")[0].at("radius_m").at("max"), radius);
+  EXPECT_FALSE(describe(tree_of(room(), {.level = 2}), room(), {}, false).contains("tree"));
+  EXPECT_EQ(describe(tree_of(only(room(), 0)), room(), {}, false).at("tree").at("depth"), 0);
+}
+
 TEST(Tree, RefusesLevelsThatAreNotThere) {
   test::expect_error(ErrorCode::out_of_range, {"level: 7 is beyond the tree's 0..6"},
                      [] { tree_of(room(), {.level = 7}); });
