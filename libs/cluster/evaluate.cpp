@@ -60,9 +60,11 @@ VSGL_LANE float specular_emission(const Cluster& c, V3 u, float lobe_variance, f
   const V3 t = h - hn * n;
   float scaled;
   if constexpr (E == Emission::ggx) {
-    const float q = most(dot(t, t) + alpha2 * hn * hn, alpha2 * hh);
-    const float masking = (2 * c.incident_masking - 1) * z + ggx_slope(c.masking_alpha2, z);
-    scaled = 2 * alpha2 * hh * hh / (q * q * masking);
+    const float surface = c.masking_alpha2, spread = most(alpha2 - surface, 0);
+    const float b = surface + std::sqrt(2 * spread * (surface + 2 * spread));
+    const float q = most(dot(t, t) + b * hn * hn, least(b, 1) * hh), sharp = hh / q;
+    const float masking = (2 * c.incident_masking - 1) * z + ggx_slope(surface, z);
+    scaled = 2 * sharp * sharp * (surface + 2 * b * (b - surface) * hn * hn / q) / masking;
   } else {
     const float phong = c.ndf == interop::NDF_PHONG ? 1 : 0;
     const float density = gaussian_density(phong, alpha2, dot(t, t) / hh, hn * hn / hh);

@@ -35,14 +35,23 @@ double fvpl_cosine(double c, double normal_sharpness) {
   return is_flat(normal_sharpness) ? std::max(c, 0.0) : cosine_mean(c, normal_sharpness);
 }
 
+double ggx_spread_d(double alpha2, double spread, double sin2, double cos2) {
+  const double b = alpha2 + std::sqrt(2 * spread * (alpha2 + 2 * spread));
+  const double q = std::max(sin2 + b * cos2, std::min(b, 1.0));
+  return (alpha2 + 2 * b * (b - alpha2) * cos2 / q) / (std::numbers::pi * q * q);
+}
+
 double fvpl_specular(const Cluster& c, Vec3 w, double inverse_d2, double cosine, double seen) {
   if (cosine <= 0) return 0;
   const Vec3 n = to_double(c.shading_normal), h = to_double(c.incident) + w;
   const double hn = dot(h, n), hh = std::max(dot(h, h), 1e-12);
   const Vec3 t = h - hn * n;
+  const double sin2 = dot(t, t) / hh, cos2 = hn * hn / hh, surface = wide(c.masking_alpha2);
   const double alpha2 = std::min(wide(c.alpha2) + inverse_d2 / (2 * wide(c.inverse_variance)), 1.0);
-  const double peak = c.ndf == interop::NDF_GGX ? std::numbers::pi : 1;  // which incident_scale holds
-  const double density = peak * ndf_density(c.ndf, alpha2, dot(t, t) / hh, hn * hn / hh);
+  const double density =
+      c.ndf == interop::NDF_GGX  // incident_scale holds 1 / pi
+          ? std::numbers::pi * ggx_spread_d(surface, std::max(alpha2 - surface, 0.0), sin2, cos2)
+          : ndf_density(c.ndf, alpha2, sin2, cos2);
   const double masking = wide(c.incident_masking) + smith_lambda(c.ndf, wide(c.masking_alpha2), cosine);
   return wide(c.incident_scale) * density * seen / (std::max(cosine, cos_min) * masking);
 }

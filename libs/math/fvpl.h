@@ -25,6 +25,10 @@ bool fvpl_is_point(double sharpness, double across);
 // Mean of the clamped cosine of a direction over the cluster's normals, 0..1; c = direction . mean normal.
 double fvpl_cosine(double c, double normal_sharpness);
 
+// Density of half vectors, 1/sr, of a GGX lobe whose normals are spread: alpha2 of the surface, `spread`
+// added by the cluster.
+double ggx_spread_d(double alpha2, double spread, double sin2, double cos2);
+
 // Specular BRDF of the widened lobe times the cosine `seen` from the light source to `w`, 1/sr; `cosine`: of
 // w to the specular texels' normals.
 double fvpl_specular(const interop::Cluster& c, Vec3 w, double inverse_d2, double cosine, double seen);

@@ -17,18 +17,24 @@ float fast_fvpl_cosine(float c, float normal_sharpness) {
   return normal_sharpness > CLUSTER_FLAT ? max(c, 0.0) : spread;
 }
 
-// fvpl_specular(), w = -u. For GGX with 1 + Lambda = (c + s) / (2 c), s = ggx_slope_cosine: one division and one root.
+// fvpl_specular(), w = -u. For GGX with 1 + Lambda = (c + s) / (2 c), s = ggx_slope_cosine: one division.
 float fast_fvpl_specular(uint ndf, Cluster c, vec3 u, float inverse_d2, float cosine, float seen) {
   if (ndf != NDF_GGX) return fvpl_specular(ndf, c, -u, inverse_d2, cosine, seen);
   vec3 h = c.incident - u;
   float hh = max(dot(h, h), 1e-8);
   float hn = dot(h, c.shading_normal);
   vec3 t = h - hn * c.shading_normal;
-  float alpha2 = min(c.alpha2 + (0.5 / c.inverse_variance) * inverse_d2, 1.0);
-  float q = max(dot(t, t) + alpha2 * hn * hn, alpha2 * hh);
+  float alpha2 = c.masking_alpha2;
+  float spread = max(min(c.alpha2 + (0.5 / c.inverse_variance) * inverse_d2, 1.0) - alpha2, 0.0);
+  float b = alpha2 + sqrt(2.0 * spread * (alpha2 + 2.0 * spread));
+  float q = max(dot(t, t) + b * hn * hn, min(b, 1.0) * hh);
   float z = max(cosine, 0.0);
-  float below = q * q * ((2.0 * c.incident_masking - 1.0) * z + ggx_slope_cosine(c.masking_alpha2, z));
-  return z > 0.0 ? 2.0 * c.incident_scale * alpha2 * hh * hh * seen / below : 0.0;
+  float masking = (2.0 * c.incident_masking - 1.0) * z + ggx_slope_cosine(alpha2, z);
+  float inverse = 1.0 / (q * masking);
+  float inverse_q = inverse * masking;
+  float sharp = hh * inverse_q;
+  float density = sharp * sharp * (alpha2 + 2.0 * b * (b - alpha2) * hn * hn * inverse_q);
+  return z > 0.0 ? 2.0 * c.incident_scale * seen * density * (inverse * q) : 0.0;
 }
 
 // fvpl_emission_flat().

@@ -32,6 +32,16 @@ float fvpl_cosine(float c, float normal_sharpness) {
   return normal_sharpness > CLUSTER_FLAT ? max(c, 0.0) : cosine_mean(c, normal_sharpness);
 }
 
+// Density of half vectors, 1/sr, of a GGX lobe whose normals are spread: alpha2 of the surface, `spread` added by the cluster.
+// In slopes r it is (alpha2 (r^2 + b) + 2 b (b - alpha2)) / (pi (r^2 + b)^3) with b(alpha2, spread): normalised; to first order in
+// the spread it has the peak and the two leading terms of the tail of GGX convolved with a Gaussian, and the Gaussian's peak for a
+// large spread. (GGX of alpha^2 + spread would raise the tail by spread / alpha^2, everywhere away from the highlight.)
+float ggx_spread_d(float alpha2, float spread, float sin2, float cos2) {
+  float b = alpha2 + sqrt(2.0 * spread * (alpha2 + 2.0 * spread));
+  float inverse = 1.0 / max(sin2 + b * cos2, min(b, 1.0));
+  return (alpha2 + 2.0 * b * (b - alpha2) * cos2 * inverse) * inverse * inverse / PI;
+}
+
 // Specular BRDF times the cosine `seen` from the light source to `w`, 1/sr: specular_brdf_cos() with what does not depend on `w`
 // hoisted and the lobe widened by the spread of the cluster's half vectors, sigma^2 / (2 d2) of which comes from the directions to the
 // receiver. `cosine`: of w to the specular texels' normals; the masking is that of the surface itself.
@@ -41,8 +51,11 @@ float fvpl_specular(uint ndf, Cluster c, vec3 w, float inverse_d2, float cosine,
   vec3 t = h - hn * c.shading_normal;
   float inverse = 1.0 / max(dot(h, h), 1e-12);
   float alpha2 = min(c.alpha2 + 0.5 * inverse_d2 / c.inverse_variance, 1.0);
-  float density = ndf_density(ndf, alpha2, dot(t, t) * inverse, hn * hn * inverse);
-  if (ndf == NDF_GGX) density *= PI;  // which incident_scale holds
+  float sin2 = dot(t, t) * inverse;
+  float cos2 = hn * hn * inverse;
+  float density = ndf == NDF_GGX  // incident_scale holds 1 / pi
+                      ? PI * ggx_spread_d(c.masking_alpha2, max(alpha2 - c.masking_alpha2, 0.0), sin2, cos2)
+                      : ndf_density(ndf, alpha2, sin2, cos2);
   float masking = c.incident_masking + smith_lambda(ndf, c.masking_alpha2, cosine);
   return cosine > 0.0 ? c.incident_scale * density * seen / (max(cosine, COS_MIN) * masking) : 0.0;
 }

@@ -312,7 +312,15 @@ LibraryFile fvpl_file() {
           return Values() << f.diffuse << f.specular;
         },
         tolerance,
-        combinations({receivers, {{0, 0, 0}, {1e-13f, 0, 0}, {1e3f, 0, 2}}, numbers({0, 1e-9, 1e18})})}}};
+        combinations({receivers, {{0, 0, 0}, {1e-13f, 0, 0}, {1e3f, 0, 2}}, numbers({0, 1e-9, 1e18})})},
+       {"ggx_spread_d",
+        combinations({numbers({1e-6, 0.04, 1}), numbers({0, 1e-3, 0.1, 1}), numbers({0, 1e-6, 0.3, 1}),
+                      numbers({0, 0.7, 1})}),
+        [](Arguments& a) {
+          const double alpha2 = a.take(), spread = a.take(), sin2 = a.take();
+          return ggx_spread_d(alpha2, spread, sin2, a.take());
+        },
+        {1e-5, 0}}}};
 }
 
 }  // namespace

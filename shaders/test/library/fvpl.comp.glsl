@@ -56,5 +56,6 @@ void call() {
     case 7u: put(fvpl_point(take_receiver(), take3(), take())); break;
     case 8u: put(fvpl_fluence(take(), take())); break;
     case 9u: put_extended(take_receiver()); break;
+    case 10u: put(ggx_spread_d(take(), take(), take(), take())); break;
   }
 }
