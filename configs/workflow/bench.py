@@ -17,6 +17,7 @@ import tempfile
 
 from chain import StageFailed, phases
 from demo import SCENES, run_scene
+from plots import label
 
 WORKFLOW = pathlib.Path(__file__).resolve().parent
 
@@ -50,10 +51,10 @@ def print_experiment(rows):
     """Time and error of each image."""
     metrics = ["relmse_denoised", "relmse_trimmed", "flip", "luminance_bias"]
     print("\nexperiment small: 160x90, RSM 128x128\n" +
-          f"{'scene':<16}{'variant':<14}{'N':>6}{'time s':>9}{'with files':>12}" + "".join(f"{name:>17}" for name in metrics))
+          f"{'scene':<16}{'variant':<28}{'time s':>9}{'with files':>12}" + "".join(f"{name:>17}" for name in metrics))
     for row in rows:
         times = row["times"]
-        print(f"{row['scene']:<16}{row['variant']:<14}{row['n']:>6}{times['time_s']:>9.3f}{times['time_with_files_s']:>12.3f}" +
+        print(f"{row['scene']:<16}{label(row):<28}{times['time_s']:>9.3f}{times['time_with_files_s']:>12.3f}" +
               "".join(f"{row['metrics'][name]:>17.5f}" for name in metrics))
 
 

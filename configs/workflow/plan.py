@@ -11,6 +11,7 @@ import shlex
 
 import jsonschema
 
+SAMPLED = ("vpl", "fis-2014", "fis-2016")  # methods of vsgl-gen that follow a density
 SCHEMA = pathlib.Path(__file__).resolve().parents[1] / "schema" / "experiment.schema.json"
 
 
@@ -60,6 +61,9 @@ def check_names(path, experiment):
     for name, variant in variants.items():
         require("count" not in variant.get("pipeline", {}).get("vsgl_gen", {}) or "counts" not in variant,
                 ["variants", name, "pipeline", "vsgl_gen", "count"], f"is given by /variants/{name}/counts as well; remove one")
+        for stage in ("ismap", "shade"):
+            require("error" not in (variant.get("pipeline", {}).get(stage) or {}) or "errors" not in variant,
+                    ["variants", name, "pipeline", stage, "error"], f"is given by /variants/{name}/errors as well; remove one")
         if "reference" in variant:
             require("samples" not in variant["reference"], ["variants", name, "reference", "samples"],
                     f"belongs beside it, as a list: /variants/{name}/samples")
@@ -71,6 +75,7 @@ def check_names(path, experiment):
                 (step["variant"], where + ["steps", i, "variant"]) for i, step in enumerate(decomposition["steps"])]:
             require("pipeline" in variants.get(used, {}), place, f"no variant \"{used}\" with a pipeline; there are " +
                     ", ".join(other for other, variant in variants.items() if "pipeline" in variant))
+            require("errors" not in variants[used], place, f"\"{used}\" has several images, one for each of its errors")
             counts = variants[used].get("counts")
             require(counts is None or set(variants[decomposition["variant"]].get("counts", [None])) <= set(counts), place,
                     f"\"{used}\" lacks numbers of lights that \"{decomposition['variant']}\" has")
@@ -138,8 +143,10 @@ class Plan:
         arguments = ["--seed", str(seed), *frame_arguments(frame)]
         return self.stage("reference", label, inputs, options, arguments, origin) + "/reference.exr"
 
-    def shade(self, scene, frame, pipeline, n, seed, origin):
+    def shade(self, scene, frame, pipeline, sweep, seed, origin):
         """Image by virtual lights, and the folders of the stages that make it."""
+        n, error = sweep
+        aimed = {} if error is None else {"error": error}
         def stage(tool, label, inputs, arguments=(), **further):
             key = tool.replace("-", "_")
             return self.stage(tool, [scene, at(frame), *label], inputs, pipeline.get(key, {}) | further, arguments, (*origin, key))
@@ -151,25 +158,29 @@ class Plan:
         bake = self.bake(scene, frame, pipeline.get("rsm_bake"), (*origin, "rsm_bake") if own else ("rsm_bake",))
         rsm, gbuffer = f"{bake}/rsm.exr", f"{bake}/gbuffer.exr"
         stages = {"rsm-bake": bake}
-        stages["pdf-build"] = stage("pdf-build", [method("pdf_build")], {"rsm": rsm, "gbuffer": gbuffer})
         count = {} if n is None else {"count": n}
-        inputs = {"rsm": rsm, "pdf": f"{stages['pdf-build']}/pdf.exr"}
+        inputs = {"rsm": rsm}
+        if method("vsgl_gen") in SAMPLED:
+            stages["pdf-build"] = stage("pdf-build", [method("pdf_build")], {"rsm": rsm, "gbuffer": gbuffer})
+            inputs["pdf"] = f"{stages['pdf-build']}/pdf.exr"
         stages["vsgl-gen"] = stage("vsgl-gen", [method("vsgl_gen"), n, f"s{seed}"], inputs, ["--seed", str(seed)], **count)
         inputs = {"gbuffer": gbuffer, "lights": f"{stages['vsgl-gen']}/lights.exr"}
         if pipeline.get("ismap", {}) is not None:
-            pixels = {"gbuffer": gbuffer} if method("ismap") == "raytraced" else {}
+            pixels = {} if method("ismap") == "ism" else {"gbuffer": gbuffer}
             seen = {**self.scene(scene), "lights": inputs["lights"], **pixels}
-            stages["ismap"] = stage("ismap", [method("vsgl_gen"), n, f"s{seed}", method("ismap")], seen, frame_arguments(frame))
+            label = [method("vsgl_gen"), n, f"s{seed}", method("ismap"), error]
+            stages["ismap"] = stage("ismap", label, seen, frame_arguments(frame), **aimed)
             inputs["ism"] = f"{stages['ismap']}/ism.exr"
-        stages["shade"] = stage("shade", [method("shade", "light_model"), n, f"s{seed}"], inputs)
+            aimed = {}
+        stages["shade"] = stage("shade", [method("shade", "light_model"), n, f"s{seed}", error], inputs, **aimed)
         return f"{stages['shade']}/indirect.exr", stages
 
-    def image(self, scene, frame, name, n, seed):
+    def image(self, scene, frame, name, sweep, seed):
         """Of a variant: its path, and the folders of the stages that make it."""
         variant = self.experiment["variants"][name]
         if "pipeline" in variant:
-            return self.shade(scene, frame, variant["pipeline"], n, seed, ("variants", name, "pipeline"))
-        image = self.trace(scene, frame, variant["reference"] | {"samples": n}, seed, ("variants", name, "reference"))
+            return self.shade(scene, frame, variant["pipeline"], sweep, seed, ("variants", name, "pipeline"))
+        image = self.trace(scene, frame, variant["reference"] | {"samples": sweep[0]}, seed, ("variants", name, "reference"))
         return image, {"reference": str(pathlib.PurePath(image).parent)}
 
     def add_frame(self, scene, frame):
@@ -180,28 +191,29 @@ class Plan:
         images = {}
         for name, variant in self.experiment["variants"].items():
             first = None
-            for n in sorted(variant.get("counts", variant.get("samples", [None]))):
+            for n, error in sweeps(variant):
                 for seed in variant.get("seeds", self.experiment["seeds"]):
-                    image, stages = self.image(scene, frame, name, n, seed)
+                    image, stages = self.image(scene, frame, name, (n, error), seed)
                     self.order(stages, first := first or stages)
                     images.setdefault((name, n), []).append(image)
-                    comparison = self.stage("compare", [scene, at(frame), name, n, f"s{seed}"],
+                    comparison = self.stage("compare", [scene, at(frame), name, n, error, f"s{seed}"],
                                             {"test": image, "reference": truth}, None, ["--channels", "indirect"])
-                    self.rows.append({"scene": scene, "frame": frame, "variant": name, "n": n, "seed": seed, "image": image,
-                                      "reference": truth, "stages": stages, "comparison": f"{comparison}/comparison.json"})
+                    self.rows.append({"scene": scene, "frame": frame, "variant": name, "n": n, "error": error, "seed": seed,
+                                      "image": image, "reference": truth, "stages": stages,
+                                      "comparison": f"{comparison}/comparison.json"})
         for name, decomposition in self.experiment.get("decompositions", {}).items():
             self.decompose(scene, frame, name, decomposition, images, truth)
 
     def order(self, stages, first):
-        """Of a variant's images the one with the fewest lights is made first, and after a warm-up run: so that shaders are
-        compiled before the times of the others count."""
+        """Of a variant's images the cheapest is made first, and after a warm-up run: so that shaders are compiled before times
+        count."""
         for tool in ("vsgl-gen", "ismap", "shade"):
             if tool not in stages:
                 continue
             stage, before = (self.stages[stage_of(f"{folder}/report.json")] for folder in (stages[tool], first[tool]))
+            before["warm_up"] = True
             if stage is not before:
                 stage["inputs"]["after"] = f"{before['folder']}/report.json"
-                before["warm_up"] = True
 
     def decompose(self, scene, frame, name, decomposition, images, truth):
         """For each number of lights: the image of the first seed, then the images with one cause of error less at each step."""
@@ -221,6 +233,13 @@ class Plan:
 
     def to_json(self):
         return {"experiment": self.experiment, "stages": self.stages, "rows": self.rows, "decompositions": self.decompositions}
+
+
+def sweeps(variant):
+    """(number of lights or samples, error) of each of its images, None where the variant does not say; the cheapest first."""
+    if "errors" in variant:
+        return [(None, error) for error in sorted(variant["errors"], reverse=True)]
+    return [(n, None) for n in sorted(variant.get("counts", variant.get("samples", [None])))]
 
 
 def stage_of(path):

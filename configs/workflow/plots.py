@@ -30,14 +30,26 @@ def pareto_front(points):
     return front
 
 
+def effort(row):
+    """Of two images of a variant the one with more of it is the dearer one: more lights or samples, or a smaller error."""
+    return -row["error"] if row["error"] is not None else row["n"] or 0
+
+
+def label(row):
+    """"default, error 0.02", "vpl, 64"."""
+    if row["error"] is not None:
+        return f"{row['variant']}, error {row['error']:g}"
+    return row["variant"] if row["n"] is None else f"{row['variant']}, {row['n']}"
+
+
 def series(rows, scene, metric, x):
-    """variant -> [(x, error)], the means over seeds and frames, by rising N. Without what logarithmic axes cannot show."""
+    """variant -> [(x, error)], the means over seeds and frames, by rising effort. Without what logarithmic axes cannot show."""
     groups = {}
     for row in rows:
         if row["scene"] == scene:
-            groups.setdefault((row["variant"], row["n"]), []).append(row)
+            groups.setdefault((row["variant"], row["n"], row["error"]), []).append(row)
     found = {}
-    for (variant, n), group in sorted(groups.items(), key=lambda item: item[0][1] or 0):
+    for (variant, n, _), group in sorted(groups.items(), key=lambda item: effort(item[1][0])):
         errors = [row["metrics"].get(metric) for row in group]
         places = [row["times"]["time_s"] if x == "time_s" else n for row in group]
         if None not in places and all(error is not None and error > 0 for error in errors):

@@ -49,7 +49,7 @@ def figures(experiment, rows, x):
 def main_table(experiment, rows):
     metrics = list(dict.fromkeys([*experiment["plots"], "relmse_rgb", "ssim", "luminance_bias"]))
     metrics = [name for name in metrics if any(name in row["metrics"] for row in rows)]
-    keys = ["scene", *(["frame"] if "frames" in experiment else []), "variant", "n", "seed"]
+    keys = ["scene", *(["frame"] if "frames" in experiment else []), "variant", "n", "error", "seed"]
     times = {"time, s": "time_s", "with files, s": "time_with_files_s", "process, s": "wall_s"}
     return table("Each image. results.csv has all figures.", [*keys, *times, *(plots.LABELS.get(name, name) for name in metrics)],
                  [[*(row[key] for key in keys), *(row["times"][key] for key in times.values()),
@@ -58,20 +58,20 @@ def main_table(experiment, rows):
 
 def stage_table(rows):
     tools = list(dict.fromkeys(tool for row in rows for tool in row["times"]["stages"]))
-    keys = ["scene", "frame", "variant", "n", "seed"]
+    keys = ["scene", "frame", "variant", "n", "error", "seed"]
     return table("Seconds of each stage, without the reading and writing of files.", [*keys, *tools],
                  [[*(row[key] for key in keys), *(row["times"]["stages"].get(tool) for tool in tools)] for row in rows])
 
 
 def viewer(rows):
-    """The first frame of a scene: each variant's image with the largest N, of its first seed, beside the reference."""
+    """The first frame of a scene: each variant's image with the largest N or smallest error, of its first seed, beside the
+    reference."""
     best = {}
     for row in rows:
         other = best.get(row["variant"])
-        if row["frame"] == rows[0]["frame"] and (other is None or (row["n"] or 0) > (other["n"] or 0)):
+        if row["frame"] == rows[0]["frame"] and (other is None or plots.effort(row) > plots.effort(other)):
             best[row["variant"]] = row
-    tests = [{"file": row["image"], "label": row["variant"] if row["n"] is None else f"{row['variant']}, {row['n']}"}
-             for row in best.values()]
+    tests = [{"file": row["image"], "label": plots.label(row)} for row in best.values()]
     reference = {"file": rows[0]["reference"], "label": "reference"}
     return {"type": "images", "reference": reference, "tests": tests, "layers": ["indirect"]}
 

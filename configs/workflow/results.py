@@ -7,6 +7,7 @@ import json
 import pathlib
 
 STAGES = ["rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "reference"]
+KEYS = ["scene", "frame", "variant", "n", "error", "seed"]
 
 
 def read_json(path):
@@ -14,12 +15,14 @@ def read_json(path):
 
 
 def stage_times(folder):
-    """Seconds of a stage: its phases without and with the reading and writing of files, and the process from start to end."""
+    """Seconds of a stage: its phases without and with the reading and writing of files, the device's part of them, and the process
+    from start to end."""
     report = read_json(f"{folder}/report.json")
     phases = [(phase["name"].split()[0] in ("read", "write"), phase["host_s"]) for phase in report["phases"]]
     process = {key: report["process"][key] for key in ("wall_s", "jobs", "threads", "processor")}
     return {"time_s": sum(seconds for files, seconds in phases if not files),
-            "time_with_files_s": sum(seconds for _, seconds in phases), **process}
+            "time_with_files_s": sum(seconds for _, seconds in phases),
+            "device_s": sum(phase.get("device_s", 0) for phase in report["phases"]), **process}
 
 
 def row_times(folders):
@@ -29,7 +32,8 @@ def row_times(folders):
     conditions = {"jobs": max(stage["jobs"] for stage in stages.values()),
                   "threads": sorted({stage["threads"] for stage in stages.values()}),
                   "processors": sorted({stage["processor"] for stage in stages.values()})}
-    return {**sums, "stages": {tool: stage["time_s"] for tool, stage in stages.items()}, **conditions}
+    shading = stages["shade"]["device_s"] if "shade" in stages else None
+    return {**sums, "stages": {tool: stage["time_s"] for tool, stage in stages.items()}, "shading_s": shading, **conditions}
 
 
 def metrics(comparison):
@@ -39,22 +43,23 @@ def metrics(comparison):
 
 
 def write_csv(rows, target):
-    """A line per image. Times: time_s is the sum of the stages' phases without files, <stage>_s its parts."""
+    """A line per image. Times: time_s is the sum of the stages' phases without files, <stage>_s its parts, shading_s the device's
+    part of shade."""
     used = [tool for tool in STAGES if any(tool in row["times"]["stages"] for row in rows)]
     names = list(dict.fromkeys(name for row in rows for name in row["metrics"]))
     with open(target, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        keys, sums = ["scene", "frame", "variant", "n", "seed"], ["time_s", "time_with_files_s", "wall_s", "jobs"]
-        writer.writerow([*keys, *(f"{tool.replace('-', '_')}_s" for tool in used), *sums, *names])
+        sums = ["shading_s", "time_s", "time_with_files_s", "wall_s", "jobs"]
+        writer.writerow([*KEYS, *(f"{tool.replace('-', '_')}_s" for tool in used), *sums, *names])
         for row in rows:
             times = row["times"]
-            writer.writerow([*(row[key] for key in keys), *(times["stages"].get(tool) for tool in used),
+            writer.writerow([*(row[key] for key in KEYS), *(times["stages"].get(tool) for tool in used),
                              *(times[key] for key in sums), *(row["metrics"].get(name) for name in names)])
 
 
 def main():
     plan = read_json("plan.json")
-    rows = [{key: row[key] for key in ("scene", "frame", "variant", "n", "seed", "image", "reference")} |
+    rows = [{key: row[key] for key in (*KEYS, "image", "reference")} |
             {"metrics": metrics(row["comparison"]), "times": row_times(row["stages"])} for row in plan["rows"]]
     decompositions = [{key: entry[key] for key in ("name", "scene", "frame", "n")} |
                       {"decomposition": read_json(entry["comparison"])} for entry in plan["decompositions"]]

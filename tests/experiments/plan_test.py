@@ -23,6 +23,8 @@ EXPERIMENT = {
         "fis": {"pipeline": {"vsgl_gen": {"method": "fis-2016"}}, "counts": [256, 64]},
         "fis-sharp": {"pipeline": {"vsgl_gen": {"method": "fis-2016"}, "shade": {"cbr": 0}}, "counts": [64]},
         "texels": {"pipeline": {"vsgl_gen": {"method": "texels"}, "ismap": None}},
+        "tree": {"pipeline": {"vsgl_gen": {"method": "tree"}, "ismap": {"method": "rays"}}, "errors": [0.01, 0.1]},
+        "bare-tree": {"pipeline": {"vsgl_gen": {"method": "tree"}, "ismap": None}, "errors": [0.1]},
         "paths": {"reference": {"strategy": "mis"}, "samples": [1, 4]},
     },
     "seeds": [0, 1],
@@ -94,6 +96,18 @@ class Strictness(Files):
         self.experiment["variants"]["paths"]["reference"]["samples"] = 5
         self.assert_error("/variants/paths/reference/samples", "/variants/paths/samples")
 
+    def test_error_given_twice(self):
+        self.experiment["variants"]["tree"]["pipeline"]["ismap"]["error"] = 0.1
+        self.assert_error("/variants/tree/pipeline/ismap/error", "/variants/tree/errors")
+
+    def test_two_sweeps(self):
+        self.experiment["variants"]["tree"]["counts"] = [64]
+        self.assert_error("/variants/tree/counts", "does not allow")
+
+    def test_decomposition_of_a_sweep_of_errors(self):
+        self.experiment["decompositions"]["split"]["steps"][1]["variant"] = "tree"
+        self.assert_error("/decompositions/split/steps/1/variant", "one for each of its errors")
+
     def test_seed_of_the_reference(self):
         self.experiment["reference"]["seed"] = 1
         self.assert_error("/reference/seed", "paths")
@@ -134,13 +148,14 @@ class Strictness(Files):
 class Sharing(Files):
     def test_equal_stages_are_one(self):
         found = tools(self.plan())
-        # A scene: 2 variants x 64 and fis x 256, each x 2 seeds, and texels x 2 seeds.
-        self.assertEqual(found, {"scene-gen": 1, "rsm-bake": 2, "pdf-build": 2, "vsgl-gen": 2 * (2 + 2 + 2), "ismap": 2 * (2 + 2),
-                                 "shade": 2 * (2 + 2 + 2 + 2), "reference": 2 * (1 + 4), "compare": 2 * (8 + 4 + 1)})
+        # A scene: 2 variants x 64 and fis x 256, each x 2 seeds; texels x 2 seeds; one tree a seed for 2 + 1 errors.
+        self.assertEqual(found, {"scene-gen": 1, "rsm-bake": 2, "pdf-build": 2, "vsgl-gen": 2 * (2 + 2 + 2 + 2),
+                                 "ismap": 2 * (2 + 2 + 4), "shade": 2 * (2 + 2 + 2 + 2 + 4 + 2), "reference": 2 * (1 + 4),
+                                 "compare": 2 * (8 + 6 + 4 + 1)})
 
     def test_rows(self):
         rows = self.plan().rows
-        self.assertEqual(len(rows), 2 * 2 * (2 + 1 + 1 + 2))
+        self.assertEqual(len(rows), 2 * 2 * (2 + 1 + 1 + 2 + 1 + 2))
         self.assertEqual(len({row["image"] for row in rows}), len(rows))
 
     def test_shade_options_change_shade_and_compare_only(self):
@@ -164,6 +179,19 @@ class Sharing(Files):
         for stage in later:
             self.assertEqual(stage["inputs"]["after"], first[0]["folder"] + "/report.json")
             self.assertFalse(stage["warm_up"])
+
+    def test_errors(self):
+        """They are for ismap, or without it for shade; the largest, which is the cheapest, comes first; trees need no density."""
+        plan = self.plan()
+        options = lambda tool, label: [(stage["options"].get("error"), stage["warm_up"]) for name, stage in plan.stages.items()
+                                       if name.startswith(f"{tool}/box-{label}")]
+        self.assertEqual(options("ismap", "tree-s0-rays"), [(0.1, True), (0.01, False)])
+        self.assertEqual(options("shade", "s0"), [(None, True), (None, True), (None, False), (0.1, True)])
+        self.assertEqual([row["error"] for row in plan.rows if row["variant"] == "tree" and row["scene"] == "box"],
+                         [0.1, 0.1, 0.01, 0.01])
+        for stage in plan.stages.values():
+            if stage["folder"].startswith("stages/vsgl-gen/box-tree"):
+                self.assertNotIn("pdf", stage["inputs"])
 
     def test_scene_files_are_inputs(self):
         bake = next(stage for name, stage in self.plan().stages.items() if name.startswith("rsm-bake/hall"))
