@@ -8,6 +8,10 @@
 namespace vsgl::visibility {
 namespace {
 
+// Shares of a sample's light from which on a node is looked at pixel by pixel, relative to the error aimed
+// at. docs/visibility.md has the measurement.
+constexpr float kMixedShare = 0.1F, kEdgeShare = 0.2F;
+
 // One tile's cut with what its samples see, and the number of looks that this took.
 struct SeenCut {
   TileCut cut;
@@ -40,11 +44,11 @@ SeenCut choose_entries(const TreeTraversal& traversal, const CutCriterion& crite
 }
 
 struct Totals {
-  std::size_t sample_looks = 0, looks = 0, surfaces = 0, unmatched = 0, mixed = 0, dropped = 0;
+  std::size_t looks = 0, surfaces = 0, unmatched = 0, mixed = 0, dropped = 0;
 
   void add(const TileVisibility& tile) {
     looks += tile.looks;
-    surfaces += tile.surfaces;
+    surfaces += tile.surfaces.count();
     unmatched += tile.unmatched;
     mixed += tile.mixed;
     dropped += tile.dropped;
@@ -62,12 +66,12 @@ Cut empty_cut(const GBuffer& gbuffer, const Lights& tree, double error) {
   return cut;
 }
 
-void append(Cut& cut, const TileVisibility& tile, const TileMask& surfaces) {
+void append(Cut& cut, const TileVisibility& tile) {
   cut.tiles.push_back({static_cast<std::uint32_t>(cut.nodes.size()),
                        static_cast<std::uint32_t>(tile.nodes.size()), static_cast<float>(tile.error)});
   for (std::size_t i = 0; i < tile.nodes.size(); ++i) {
     cut.nodes.push_back(tile.nodes[i]);
-    if (tile.masks[i] == surfaces) {
+    if (tile.masks[i] == tile.surfaces) {
       cut.masks.push_back(0);
       continue;
     }
@@ -86,8 +90,8 @@ void report_cut(const Cut& cut, const Totals& totals, const char* looks, Report&
   report.count("mixed_entries", totals.mixed);
   report.count("unseen_entries", totals.dropped);
   report.count("unmatched_pixels", totals.unmatched);
-  report.count(looks, totals.sample_looks + totals.looks);
-  report.count(std::string(looks) + "_per_pixel", per(totals.sample_looks + totals.looks, totals.surfaces));
+  report.count(looks, totals.looks);
+  report.count(std::string(looks) + "_per_pixel", per(totals.looks, totals.surfaces));
 }
 
 }  // namespace
@@ -97,8 +101,6 @@ Cut find_cut_visibility(const GBuffer& gbuffer, const Lights& tree, const Cut* g
   Cut cut = empty_cut(gbuffer, tree, given ? given->error : params.error);
   std::vector<TileVisibility> tiles(static_cast<std::size_t>(cut.columns()) *
                                     static_cast<std::size_t>(cut.rows()));
-  std::vector<TileMask> surfaces(tiles.size());
-  std::vector<std::size_t> sample_looks(tiles.size());
   std::vector<interop::Cluster> clusters;
   std::optional<TreeTraversal> traversal;
   CutCriterion criterion;
@@ -107,6 +109,8 @@ Cut find_cut_visibility(const GBuffer& gbuffer, const Lights& tree, const Cut* g
     traversal.emplace(gbuffer, tree, clusters);
     criterion = traversal->criterion(params.error);
   }
+  const auto error = static_cast<float>(params.error);
+  const Detail detail{.mixed = kMixedShare * error, .edges = kEdgeShare * error, .exact = params.exact};
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
     const TileSamples samples = tile_samples(gbuffer, static_cast<int>(tile));
@@ -114,16 +118,13 @@ Cut find_cut_visibility(const GBuffer& gbuffer, const Lights& tree, const Cut* g
     const TileGrid grid(gbuffer, static_cast<int>(tile), samples);
     const SeenCut seen = given ? take_entries(*given, tile, samples, sight)
                                : choose_entries(*traversal, criterion, samples, sight);
-    tiles[tile] =
-        find_tile_visibility(grid, samples, seen.cut, sight, params.exact ? Detail::exact : Detail::adaptive);
-    surfaces[tile] = grid.surfaces();
-    sample_looks[tile] = seen.looks;
+    tiles[tile] = find_tile_visibility(grid, samples, seen.cut, sight, detail);
+    tiles[tile].looks += seen.looks;
   }
   Totals totals;
-  for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
-    append(cut, tiles[tile], surfaces[tile]);
-    totals.add(tiles[tile]);
-    totals.sample_looks += sample_looks[tile];
+  for (const TileVisibility& tile : tiles) {
+    append(cut, tile);
+    totals.add(tile);
   }
   report_cut(cut, totals, sight.name(), report);
   return cut;

@@ -9,6 +9,7 @@ namespace vsgl::visibility {
 namespace {
 
 constexpr std::uint32_t kSpacing = 5;  // pixels between samples
+constexpr std::uint32_t kCells = 3;    // a side, between four samples
 // A sample this far off the pixel's plane, relative to its distance, has a quarter of the weight.
 constexpr double kPlaneTolerance = 0.15;
 // Samples with less weight do not continue the pixel's surface.
@@ -31,6 +32,12 @@ double continuity(const interop::Surface& pixel, const interop::Surface& sample)
 // Corner 2 j + i of cell (x, y) is this sample.
 std::uint32_t corner_sample(std::uint32_t cell_x, std::uint32_t cell_y, std::uint32_t corner) {
   return 4 * (cell_y + corner / 2) + cell_x + corner % 2;
+}
+
+// Bit c: of the sample at corner c of a cell.
+std::uint32_t corner_bits(std::uint32_t sample_bits, std::uint32_t cell) {
+  const std::uint32_t first = corner_sample(cell % kCells, cell / kCells, 0);
+  return (sample_bits >> first & 3U) | (sample_bits >> (first + 4) & 3U) << 2;
 }
 
 }  // namespace
@@ -73,12 +80,12 @@ void TileGrid::add_pixel(const GBuffer& gbuffer, const TileSamples& samples, std
   const interop::Surface& surface = gbuffer.pixels[pixel(bit)];
   if (surface.id == interop::NO_INSTANCE) return;
   surfaces_.set(bit);
-  const std::uint32_t cell_x = std::min(x / kSpacing, kCells - 1U),
-                      cell_y = std::min(y / kSpacing, kCells - 1U);
+  const std::uint32_t cell_x = std::min(x / kSpacing, kCells - 1),
+                      cell_y = std::min(y / kSpacing, kCells - 1);
   const double right = static_cast<double>(x - cell_x * kSpacing) / kSpacing,
                down = static_cast<double>(y - cell_y * kSpacing) / kSpacing;
   std::array<double, 4> weights{};
-  double sum = 0;
+  double sum = 0, matched_tent = 0;
   for (std::uint32_t corner = 0; corner < 4; ++corner) {
     const std::uint32_t sample = corner_sample(cell_x, cell_y, corner);
     const double tent = (corner % 2 != 0 ? right : 1 - right) * (corner / 2 != 0 ? down : 1 - down);
@@ -87,9 +94,11 @@ void TileGrid::add_pixel(const GBuffer& gbuffer, const TileSamples& samples, std
     if (weight < kMatch) continue;
     weights[corner] = tent * weight;
     sum += weights[corner];
+    matched_tent += tent;
   }
   if (sum == 0) return;
   matched_.set(bit);
+  if (matched_tent < 1 - 1e-6) edges_.set(bit);
   auto& outcomes = outcomes_[cell_y * kCells + cell_x];
   for (std::uint32_t outcome = 0; outcome < outcomes.size(); ++outcome) {
     double visible = 0;
@@ -101,13 +110,18 @@ void TileGrid::add_pixel(const GBuffer& gbuffer, const TileSamples& samples, std
 
 TileMask TileGrid::interpolate(std::uint32_t sample_bits) const {
   TileMask seen;
-  for (std::uint32_t y = 0; y < kCells; ++y)
-    for (std::uint32_t x = 0; x < kCells; ++x) {
-      const std::uint32_t upper = sample_bits >> corner_sample(x, y, 0) & 3U,
-                          lower = sample_bits >> corner_sample(x, y, 2) & 3U;
-      seen |= outcomes_[y * kCells + x][upper | lower << 2];
-    }
+  for (std::uint32_t cell = 0; cell < outcomes_.size(); ++cell)
+    seen |= outcomes_[cell][corner_bits(sample_bits, cell)];
   return seen;
+}
+
+TileMask TileGrid::undecided(std::uint32_t sample_bits) const {
+  TileMask pixels;
+  for (std::uint32_t cell = 0; cell < outcomes_.size(); ++cell) {
+    const std::uint32_t bits = corner_bits(sample_bits, cell);
+    if (bits != 0 && bits != 15) pixels |= outcomes_[cell][15];
+  }
+  return pixels;
 }
 
 }  // namespace vsgl::visibility

@@ -39,8 +39,13 @@ class TileGrid {
   // Matched pixels whose interpolated visibility is at least 1/2. `sample_bits`: which samples see.
   TileMask interpolate(std::uint32_t sample_bits) const;
 
+  // Matched pixels of the cells whose corners do not all have the same bit.
+  TileMask undecided(std::uint32_t sample_bits) const;
+
   const TileMask& surfaces() const { return surfaces_; }  // pixels that are no background
   const TileMask& matched() const { return matched_; }
+  // Matched pixels some of whose corners are unmatched: visibility is not interpolated but extended.
+  const TileMask& edges() const { return edges_; }
   TileMask unmatched() const { return surfaces_ & ~matched_; }
   // Index of a pixel of the tile in the image.
   std::uint32_t pixel(std::uint32_t bit) const {
@@ -48,14 +53,12 @@ class TileGrid {
   }
 
  private:
-  static constexpr int kCells = 3;  // a side, between four samples
-
   void add_pixel(const GBuffer& gbuffer, const TileSamples& samples, std::uint32_t x, std::uint32_t y);
 
   std::uint32_t first_, width_;
-  TileMask surfaces_, matched_;
+  TileMask surfaces_, matched_, edges_;
   // Of each cell, for each of the 16 outcomes at its corners: the pixels that see.
-  std::array<std::array<TileMask, 16>, kCells * kCells> outcomes_{};
+  std::array<std::array<TileMask, 16>, 9> outcomes_{};
 };
 
 }  // namespace vsgl::visibility

@@ -89,10 +89,10 @@ Seen see_from_samples(const Sight& sight, std::uint32_t node, const TileSamples&
 }
 
 TileVisibility find_tile_visibility(const TileGrid& grid, const TileSamples& samples, const TileCut& cut,
-                                    const Sight& sight, Detail detail) {
+                                    const Sight& sight, const Detail& detail) {
   TileVisibility out;
   out.error = cut.error;
-  out.surfaces = grid.surfaces().count();
+  out.surfaces = grid.surfaces();
   out.unmatched = grid.unmatched().count();
   out.masks.resize(cut.entries.size());
   PairQueue queue(sight, grid, out.masks);
@@ -104,15 +104,15 @@ TileVisibility find_tile_visibility(const TileGrid& grid, const TileSamples& sam
     const std::uint32_t visible = entry.visible & facing;
     const bool mixed = visible != 0 && visible != facing;
     out.mixed += mixed;
-    if (detail == Detail::exact || (mixed && entry.share >= kPixelShare)) {
-      queue.push(i, entry.node, grid.surfaces());
-      continue;
-    }
+    TileMask looking = grid.unmatched();
+    if (detail.exact) looking = grid.surfaces();
+    if (mixed && entry.share >= detail.mixed) looking |= grid.undecided(visible);
+    if (entry.share >= detail.edges) looking |= grid.edges();
     if (mixed)
-      out.masks[i] = grid.interpolate(visible);
+      out.masks[i] = grid.interpolate(visible) & ~looking;
     else if (visible != 0)
-      out.masks[i] = grid.matched();
-    queue.push(i, entry.node, grid.unmatched());
+      out.masks[i] = grid.matched() & ~looking;
+    queue.push(i, entry.node, looking);
   }
   queue.flush();
   out.looks = queue.looks();

@@ -48,7 +48,7 @@ struct Ceiling {
     normals = {{0, 0, 1}};
   }
 
-  TileVisibility find(int tile, Predicate::Sees sees, float share, Detail detail = Detail::adaptive) const {
+  TileVisibility find(int tile, Predicate::Sees sees, float share, const Detail& detail = {}) const {
     const Predicate sight(gbuffer, tree, normals, std::move(sees));
     const TileSamples samples = tile_samples(gbuffer, tile);
     TileCut cut;
@@ -56,7 +56,7 @@ struct Ceiling {
     return find_tile_visibility(TileGrid(gbuffer, tile, samples), samples, cut, sight, detail);
   }
   // The one node's bit of every pixel.
-  std::vector<bool> image(const Predicate::Sees& sees, float share, Detail detail = Detail::adaptive) const {
+  std::vector<bool> image(const Predicate::Sees& sees, float share, const Detail& detail = {}) const {
     std::vector<bool> out(gbuffer.pixels.size());
     for (int tile = 0; tile < 6; ++tile) {
       const TileVisibility found = find(tile, sees, share, detail);
@@ -78,8 +78,8 @@ double pixels_from_line(Vec3 p) {
 
 TEST(TileVisibility, NodesThatMatterAreExactAcrossTiles) {
   const Ceiling ceiling;
-  for (const Detail detail : {Detail::adaptive, Detail::exact}) {
-    const auto bits = ceiling.image(beyond_line, kPixelShare, detail);
+  for (const Detail& detail : {Detail{}, Detail{.exact = true}}) {
+    const auto bits = ceiling.image(beyond_line, 0.01F, detail);
     for (std::size_t i = 0; i < bits.size(); ++i)
       ASSERT_EQ(bits[i], beyond_line(0, widen(ceiling.gbuffer.pixels[i].position))) << i;
   }
@@ -89,7 +89,7 @@ TEST(TileVisibility, NodesThatMatterAreExactAcrossTiles) {
 // rows where tiles meet are no worse than others: there are samples on both sides.
 TEST(TileVisibility, FaintNodesAreInterpolatedWithoutSeams) {
   const Ceiling ceiling;
-  const auto bits = ceiling.image(beyond_line, 0.5F * kPixelShare);
+  const auto bits = ceiling.image(beyond_line, 0.001F);
   int wrong = 0, wrong_at_border = 0, at_border = 0;
   for (int y = 0; y < Ceiling::height; ++y)
     for (int x = 0; x < Ceiling::width; ++x) {
@@ -119,12 +119,9 @@ TEST(TileVisibility, AgreementNeedsNoLooks) {
   EXPECT_TRUE(none.nodes.empty());
   EXPECT_EQ(none.dropped, 1u);
   EXPECT_EQ(none.looks, 0u);
-  EXPECT_EQ(ceiling.find(1, beyond_line, 1).looks, 256u);
-  EXPECT_EQ(ceiling
-                .find(
-                    0, [](auto, Vec3) { return true; }, 1, Detail::exact)
-                .looks,
-            256u);
+  // The boundary crosses two cells, one and two of the three rows of cells.
+  EXPECT_EQ(ceiling.find(1, beyond_line, 1).looks, 5u * (5 + 6) + 5u * 5 + 6u * (5 + 5));
+  EXPECT_EQ(ceiling.find(0, [](auto, Vec3) { return true; }, 1, {.exact = true}).looks, 256u);
 }
 
 // Two pixels that hang far below the ceiling: no sample speaks for them.
@@ -151,7 +148,7 @@ TEST(TileVisibility, OnlySamplesThatFaceTheNodeMustAgree) {
   for (std::size_t i = 0; i < ceiling.gbuffer.pixels.size(); ++i)
     if (i % Ceiling::width < 8) ceiling.gbuffer.pixels[i].position.z = -1;
   const auto found = ceiling.find(
-      0, [](auto, Vec3 p) { return p.z > 0; }, 1);
+      0, [](auto, Vec3 p) { return p.z > 0; }, 0.003F);
   ASSERT_EQ(found.nodes.size(), 1u);
   EXPECT_EQ(found.looks, 0u);
   EXPECT_EQ(found.mixed, 0u);
