@@ -102,8 +102,8 @@ std::array<double, kTileSamples> expected(const Cluster& c, const GBuffer& gbuff
     const FvplReflection reflection =
         point ? fvpl_point(s.receiver, s.view.u, s.view.inverse_d2)
               : fvpl_extended(s.receiver, s.view, static_cast<double>(c.inverse_variance));
-    const Vec3 reflectance =
-        reflection.diffuse * to_double(s.surface.diffuse) + reflection.specular * to_double(s.surface.specular);
+    const Vec3 reflectance = reflection.diffuse * to_double(s.surface.diffuse) +
+                             reflection.specular * to_double(s.surface.specular);
     out[i] = luminance(fvpl_emission(c, s.view.u, s.view.inverse_d2) * reflectance);
   }
   return out;
@@ -114,7 +114,8 @@ struct Case {
 };
 class Evaluation : public testing::TestWithParam<Case> {};
 
-// Within 0.5% of the value and 1% of the tile's brightest sample over 100: what a choice of eps >= 1e-3 needs.
+// Within 0.5% of the value and 1% of the tile's brightest sample over 100: what a choice of eps >= 1e-3
+// needs.
 TEST_P(Evaluation, AgreesWithItsTwin) {
   for (int trial = 0; trial < 400; ++trial) {
     const double size = log_uniform(1e-3, 1), deficit = trial % 2 == 0 ? 0 : log_uniform(1e-2, 0.5);
@@ -127,7 +128,7 @@ TEST_P(Evaluation, AgreesWithItsTwin) {
     for (std::size_t i = 0; i < kTileSamples; ++i) {
       const double error = std::abs(static_cast<double>(light.value[i]) - twin[i]) / (twin[i] + 0.01 * peak);
       EXPECT_LT(error, 0.005) << "trial " << trial << " sample " << i << " size " << size << " deficit "
-                             << deficit << " value " << light.value[i] << " twin " << twin[i];
+                              << deficit << " value " << light.value[i] << " twin " << twin[i];
     }
   }
 }

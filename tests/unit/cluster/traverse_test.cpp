@@ -1,0 +1,243 @@
+#include "cluster/traverse.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "../expect_error.h"
+#include "../synthetic_room.h"
+#include "cluster/cluster.h"
+#include "cluster/evaluate.h"
+#include "stages/lights/tree_lights.h"
+
+namespace vsgl::test {
+namespace {
+
+using interop::Cluster;
+
+// A room of two lamps, a glossy floor and a glossy sphere, cut for an image of 5 x 3 tiles, partly cut off.
+struct Room {
+  GBuffer gbuffer = room_gbuffer(72, 40);
+  Lights lights;
+  std::vector<Cluster> clusters;
+
+  Room() {
+    const Rsm rsm = room_rsm(32, 2);
+    const TexelTree tree = split_texels(lit_texels(rsm, nullptr), false);
+    lights = {"tree", rsm.anchor, rsm.scene_radius, 0, tree_lights(rsm, tree), tree.levels};
+    clusters = pack_clusters(lights);
+  }
+  TreeTraversal traversal() const { return {gbuffer, lights, clusters}; }
+};
+const Room& room() {
+  static const Room instance;
+  return instance;
+}
+
+constexpr int kTiles = 15;
+
+std::vector<std::uint32_t> lit_leaves() {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < room().clusters.size(); ++i)
+    if (room().clusters[i].children == 0 && room().clusters[i].inverse_variance > 0) out.push_back(i);
+  return out;
+}
+
+std::vector<std::uint32_t> nodes_of(const TileCut& cut) {
+  std::vector<std::uint32_t> out;
+  for (const TileCut::Entry& entry : cut.entries) out.push_back(entry.node);
+  return out;
+}
+
+std::array<double, kTileSamples> light_of(const std::vector<std::uint32_t>& nodes,
+                                          const TileSamples& samples) {
+  const SampleReceivers receivers = sample_receivers(room().gbuffer, samples);
+  std::array<double, kTileSamples> sum{};
+  for (const std::uint32_t node : nodes) {
+    ClusterLight light;
+    evaluate(room().clusters[node], receivers, light);
+    for (std::size_t k = 0; k < kTileSamples; ++k)
+      if (samples.present >> k & 1U) sum[k] += static_cast<double>(light.value[k]);
+  }
+  return sum;
+}
+
+double power_below(const std::vector<std::uint32_t>& nodes) {
+  double sum = 0;
+  for (const std::uint32_t node : nodes) {
+    const interop::Light& light = room().lights.lights[node];
+    sum += luminance(to_double(light.power_diffuse) + to_double(light.power_specular));
+  }
+  return sum;
+}
+
+TEST(Samples, AreTheCornersOfATilesCells) {
+  const TileSamples samples = tile_samples(room().gbuffer, 1);
+  EXPECT_EQ(samples.present, 0xFFFFU);
+  EXPECT_EQ(samples.pixel[0], 16U);
+  EXPECT_EQ(samples.pixel[3], 31U);
+  EXPECT_EQ(samples.pixel[6], 26U + 5 * 72);
+  EXPECT_EQ(samples.pixel[15], 31U + 15 * 72);
+}
+
+TEST(Samples, ReplaceBackgroundAndPixelsBeyondTheImage) {
+  GBuffer gbuffer = room().gbuffer;
+  gbuffer.pixels[0].id = interop::NO_INSTANCE;
+  for (std::size_t y = 0; y < 4; ++y)
+    for (std::size_t x = 4; x < 8; ++x) gbuffer.pixels[y * 72 + x].id = interop::NO_INSTANCE;
+  const TileSamples first = tile_samples(gbuffer, 0);
+  EXPECT_EQ(first.pixel[0], 1U);
+  EXPECT_EQ(first.present, 0xFFFFU & ~2U);
+  const TileSamples last = tile_samples(gbuffer, 14);  // of 8 x 8 pixels
+  EXPECT_EQ(last.present, 0x0033U);
+  EXPECT_EQ(last.pixel[0], 64U + 32 * 72);
+  EXPECT_EQ(last.pixel[5], 69U + 37 * 72);
+}
+
+TEST(Traversal, RefusesLightsThatAreNoTree) {
+  Lights list = room().lights;
+  list.levels.clear();
+  expect_error(ErrorCode::invalid_data, {"lights: method", "--method tree"},
+               [&] { TreeTraversal(room().gbuffer, list, room().clusters); });
+}
+
+TEST(Traversal, TakesAllLeavesThatShineWithoutTolerance) {
+  const std::vector<std::uint32_t> leaves = lit_leaves();
+  for (int tile = 0; tile < kTiles; ++tile) {
+    const TileSamples samples = tile_samples(room().gbuffer, tile);
+    const TileCut cut = room().traversal().cut(samples, {.threshold = 0, .floor = 0}, {});
+    const auto found = light_of(nodes_of(cut), samples), all = light_of(leaves, samples);
+    for (std::size_t k = 0; k < kTileSamples; ++k) EXPECT_NEAR(found[k], all[k], 1e-3 * all[k]) << tile;
+    for (const TileCut::Entry& entry : cut.entries)
+      EXPECT_TRUE(room().clusters[entry.node].children == 0 || entry.share == 0) << entry.node;
+    EXPECT_GT(cut.entries.size(), leaves.size() / 3);
+  }
+}
+
+TEST(Traversal, CoversEveryLitLeafOnce) {
+  for (const double error : {0.5, 0.05, 0.005})
+    for (int tile = 0; tile < kTiles; ++tile) {
+      const TileSamples samples = tile_samples(room().gbuffer, tile);
+      const TileCut cut = room().traversal().cut(samples, room().traversal().criterion(error), {});
+      EXPECT_NEAR(power_below(nodes_of(cut)), power_below({0}), 1e-4 * power_below({0}));
+      EXPECT_TRUE(std::ranges::is_sorted(cut.entries, std::less{}, &TileCut::Entry::node));
+      std::vector<int> covered(room().clusters.size());
+      for (const std::uint32_t node : nodes_of(cut)) ++covered[node];
+      for (std::uint32_t node = 0; node < covered.size(); ++node)
+        if (const std::uint32_t first = room().clusters[node].children; first != 0)
+          for (std::uint32_t child = first; child < first + 4; ++child) covered[child] += covered[node];
+      for (const std::uint32_t leaf : lit_leaves()) EXPECT_EQ(covered[leaf], 1) << leaf;
+    }
+}
+
+// At the samples themselves, where nothing but the acceptance test decides.
+TEST(Traversal, KeepsItsPromiseAtTheSamples) {
+  const std::vector<std::uint32_t> leaves = lit_leaves();
+  for (const double error : {0.05, 0.02, 0.005}) {
+    std::vector<double> errors;
+    std::size_t entries = 0;
+    for (int tile = 0; tile < kTiles; ++tile) {
+      const TileSamples samples = tile_samples(room().gbuffer, tile);
+      const TileCut cut = room().traversal().cut(samples, room().traversal().criterion(error), {});
+      const auto found = light_of(nodes_of(cut), samples), all = light_of(leaves, samples);
+      for (std::size_t k = 0; k < kTileSamples; ++k)
+        if (samples.present >> k & 1U) errors.push_back(std::abs(found[k] / all[k] - 1));
+      entries += cut.entries.size();
+      EXPECT_LT(cut.error, 2 * error);
+    }
+    std::ranges::sort(errors);
+    EXPECT_LT(errors[errors.size() / 2], error);
+    EXPECT_LT(errors[errors.size() * 95 / 100], 4 * error);
+    EXPECT_LT(entries, kTiles * leaves.size()) << "the cut saves nothing";
+  }
+}
+
+TEST(Traversal, CutsDeeperForSmallerErrors) {
+  const TileSamples samples = tile_samples(room().gbuffer, 7);
+  std::size_t last = 0;
+  for (const double error : {0.5, 0.1, 0.02, 0.004}) {
+    const TileCut cut = room().traversal().cut(samples, room().traversal().criterion(error), {});
+    EXPECT_GT(cut.entries.size(), last);
+    last = cut.entries.size();
+  }
+}
+
+// The sum over its children decides, so that a node is not looked at for each of its shadows.
+TEST(Traversal, RefinesWhereVisibilityDiffersWithinANode) {
+  const TileSamples samples = tile_samples(room().gbuffer, 7);
+  const CutCriterion criterion = room().traversal().criterion(0.05);
+  const TileCut plain = room().traversal().cut(samples, criterion, {});
+  const NodeVisibility every_second = [](std::uint32_t node, const TileSamples& all) {
+    return node % 2 == 0 ? all.present : 0;
+  };
+  const TileCut shadowed = room().traversal().cut(samples, criterion, every_second);
+  EXPECT_GT(shadowed.entries.size(), plain.entries.size());
+  for (const TileCut::Entry& entry : shadowed.entries)
+    EXPECT_EQ(entry.visible, entry.node % 2 == 0 ? samples.present : 0U);
+}
+
+TEST(Traversal, AsksForTheVisibilityOfEachNodeOnce) {
+  std::map<std::uint32_t, int> asked;
+  const NodeVisibility count = [&](std::uint32_t node, const TileSamples& all) {
+    ++asked[node];
+    return all.present;
+  };
+  const TileSamples samples = tile_samples(room().gbuffer, 4);
+  const TileCut cut = room().traversal().cut(samples, room().traversal().criterion(0.02), count);
+  EXPECT_EQ(cut.evaluations, asked.size() * cut.samples);
+  for (const auto& [node, times] : asked) EXPECT_EQ(times, 1) << node;
+}
+
+// A node whose mean lies below the receivers' horizon while half of its texels shine: a wall that reaches
+// from below the floor to above it.
+TEST(Traversal, DoesNotTrustANodeHiddenByItsHorizon) {
+  Lights lights;
+  lights.method = "tree";
+  lights.levels = {0, 1, 5};
+  interop::Light node{};
+  node.position = {0, -0.01f, -1};
+  node.normal = node.shading_normal = node.incident = {0, 0, 1};
+  node.power_diffuse = {4, 4, 4};
+  node.variance = 1e-4f;
+  node.children = 1;
+  lights.lights = {node};
+  node.power_diffuse = {1, 1, 1};
+  node.children = 0;
+  node.variance = 1e-8f;
+  for (const float height : {-0.03f, -0.02f, -0.01f, 0.02f}) {
+    node.position.y = height;
+    lights.lights.push_back(node);
+  }
+  GBuffer floor;
+  floor.width = floor.height = 16;
+  floor.camera = {0, 1, 0};
+  interop::Surface s{};
+  s.normal = s.shading_normal = {0, 1, 0};
+  s.diffuse = {1, 1, 1};
+  s.alpha = 1;
+  floor.pixels.assign(256, s);
+  const std::vector<Cluster> clusters = pack_clusters(lights);
+  const TreeTraversal traversal(floor, lights, clusters);
+  const TileSamples samples = tile_samples(floor, 0);
+  ClusterLight light;
+  evaluate(clusters[0], sample_receivers(floor, samples), light);
+  ASSERT_LT(light.value[0], 0.05F * 0.01F) << "not hidden";
+  const CutCriterion criterion{.threshold = 0.01F, .floor = 0.05F, .start_level = 0};
+  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{1, 2, 3, 4}));
+}
+
+TEST(Traversal, SkipsNodesWithoutPowerAndTilesWithoutPixels) {
+  Room dark = room();
+  for (interop::Light& light : dark.lights.lights) light.power_diffuse = light.power_specular = {};
+  dark.clusters = pack_clusters(dark.lights);
+  const CutCriterion criterion = dark.traversal().criterion(0.02);
+  EXPECT_EQ(criterion.floor, 0);
+  EXPECT_TRUE(dark.traversal().cut(tile_samples(dark.gbuffer, 0), criterion, {}).entries.empty());
+  const TileCut nothing = room().traversal().cut(TileSamples{}, criterion, {});
+  EXPECT_EQ(nothing.entries.size() + nothing.samples + nothing.evaluations, 0U);
+}
+
+}  // namespace
+}  // namespace vsgl::test
