@@ -44,7 +44,8 @@ double luminance_of(interop::vec3 colour) {
 double emitted_power(const Lights& lights) {
   double sum = 0;
   for (const auto& light : lights.lights)
-    sum += luminance_of(light.power_diffuse) + luminance_of(light.power_specular);
+    if (light.children == 0)  // inner nodes of a tree repeat what is below them
+      sum += luminance_of(light.power_diffuse) + luminance_of(light.power_specular);
   return sum;
 }
 
@@ -100,20 +101,6 @@ double visibility_of(const VisibilityBits& bits, std::size_t light, std::size_t 
   return bits.visible(light, pixel) ? 1 : 0;
 }
 
-double visibility_of(const Cut& cut, std::size_t light, std::size_t pixel) {
-  const auto width = static_cast<std::size_t>(cut.width), x = pixel % width, y = pixel / width;
-  const std::size_t bit = y % interop::TILE * interop::TILE + x % interop::TILE;
-  const Cut::Tile& tile =
-      cut.tiles[y / interop::TILE * static_cast<std::size_t>(cut.columns()) + x / interop::TILE];
-  for (std::size_t i = tile.first; i < tile.first + tile.count; ++i)
-    if (cut.nodes[i] == light)
-      return cut.mask_words[cut.masks[i] * interop::MASK_WORDS + bit / 32] >> bit % 32 & 1U;
-  return 0;
-}
-
-std::size_t light_count(const Cut& cut) {
-  return static_cast<std::size_t>(cut.lights);
-}
 std::size_t light_count(const ShadowMaps& maps) {
   return maps.views.size();
 }
@@ -121,31 +108,73 @@ std::size_t light_count(const VisibilityBits& bits) {
   return static_cast<std::size_t>(bits.lights);
 }
 
-// Against rays to every third pixel, weighted by the cosines at both ends.
-template <class Kind>
-void check_kind(const Kind& visibility, const Lights& lights) {
-  ASSERT_EQ(light_count(visibility), lights.lights.size());
+// Against rays, weighted by the cosines at both ends.
+struct Agreement {
   double error = 0, weight = 0, hidden = 0;
+
+  void add(const interop::Light& light, const interop::Surface& receiver, double visibility) {
+    const Vec3 from = to_double(light.origin), to = to_double(receiver.position), u = normalise(to - from);
+    const double w = luminance_of(light.power_diffuse) * std::max(dot(u, to_double(light.normal)), 0.0) *
+                     std::max(-dot(u, to_double(receiver.normal)), 0.0);
+    const bool visible = static_cast<double>(see(from + 1e-4 * u, u, false).depth) > 0.99 * length(to - from);
+    error += w * std::abs(visibility - (visible ? 1 : 0));
+    hidden += visible ? 0 : w;
+    weight += w;
+  }
+};
+
+// Of every third pixel with all lights.
+template <class Kind>
+Agreement agreement(const Kind& visibility, const Lights& lights) {
+  EXPECT_EQ(light_count(visibility), lights.lights.size());
+  Agreement sum;
   for (std::size_t light = 0; light < lights.lights.size(); ++light)
-    for (std::size_t pixel = 0; pixel < gbuffer().pixels.size(); pixel += 3) {
-      const auto& receiver = gbuffer().pixels[pixel];
-      const Vec3 from = to_double(lights.lights[light].origin), to = to_double(receiver.position);
-      const Vec3 u = normalise(to - from), normal = to_double(receiver.normal);
-      const double w =
-          std::max(dot(u, to_double(lights.lights[light].normal)), 0.0) * std::max(-dot(u, normal), 0.0);
-      const bool visible =
-          static_cast<double>(see(from + 1e-4 * u, u, false).depth) > 0.99 * length(to - from);
-      error += w * std::abs(visibility_of(visibility, light, pixel) - (visible ? 1 : 0));
-      hidden += visible ? 0 : w;
-      weight += w;
-    }
-  EXPECT_GT(hidden / weight, 0.01);
-  EXPECT_LT(error, 0.5 * hidden);  // without shadows they would be equal
+    for (std::size_t pixel = 0; pixel < gbuffer().pixels.size(); pixel += 3)
+      sum.add(lights.lights[light], gbuffer().pixels[pixel], visibility_of(visibility, light, pixel));
+  return sum;
 }
 
-void check_visibility(gpu::Device& device, const std::filesystem::path& path) {
-  const Lights lights = sample_lights(device, "vpl");
-  std::visit([&](const auto& kind) { check_kind(kind, lights); }, read_visibility(path));
+// Of every pixel with the nodes below the start of its tile's cut: those in the cut are seen by what their
+// masks say, and leaves whose whole branch is left out by nobody.
+Agreement agreement(const Cut& cut, const Lights& lights) {
+  EXPECT_EQ(static_cast<std::size_t>(cut.lights), lights.lights.size());
+  Agreement sum;
+  for (std::size_t pixel = 0; pixel < gbuffer().pixels.size(); pixel += 3) {
+    const auto width = static_cast<std::size_t>(cut.width), x = pixel % width, y = pixel / width;
+    const std::size_t bit = y % interop::TILE * interop::TILE + x % interop::TILE;
+    const Cut::Tile& tile =
+        cut.tiles[y / interop::TILE * static_cast<std::size_t>(cut.columns()) + x / interop::TILE];
+    std::vector<bool> covered(lights.lights.size());
+    for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
+      const std::uint32_t word = cut.mask_words[cut.masks[i] * interop::MASK_WORDS + bit / 32];
+      sum.add(lights.lights[cut.nodes[i]], gbuffer().pixels[pixel], word >> bit % 32 & 1U);
+      covered[cut.nodes[i]] = true;
+    }
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+      const auto& light = lights.lights[i];
+      for (std::uint32_t k = 0; k < 4 && light.children != 0 && covered[i]; ++k)
+        covered[light.children + k] = true;
+      if (light.children == 0 && !covered[i]) sum.add(light, gbuffer().pixels[pixel], 0);
+    }
+  }
+  return sum;
+}
+
+// A list of lights, or a tree where the method is for trees only.
+Lights lights_for(gpu::Device& device, const std::string& method) {
+  const auto& rows = visibility_methods();
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& m) { return m.name == method; });
+  return sample_lights(device, row != rows.end() && !row->for_lists ? "tree" : "vpl");
+}
+
+auto check_visibility(const std::string& method) {
+  return [method](gpu::Device& device, const std::filesystem::path& path) {
+    const Lights lights = lights_for(device, method);
+    const Agreement sum =
+        std::visit([&](const auto& kind) { return agreement(kind, lights); }, read_visibility(path));
+    EXPECT_GT(sum.hidden / sum.weight, 0.01);
+    EXPECT_LT(sum.error, 0.5 * sum.hidden);  // without shadows they would be equal
+  };
 }
 
 // ---- shading
@@ -201,8 +230,8 @@ Indirect make_shadowed_image(gpu::Device& device, const std::string& method) {
   return make_image(device, lights, &maps, method);
 }
 
-Visibility vpl_visibility(gpu::Device& device, const std::string& method) {
-  return find_visibility(device, sample_lights(device, "vpl"), method);
+Visibility some_visibility(gpu::Device& device, const std::string& method) {
+  return find_visibility(device, lights_for(device, method), method);
 }
 
 }  // namespace
@@ -212,7 +241,8 @@ const std::vector<Candidate>& candidates() {
     std::vector<Candidate> out;
     append(out, "pdf", "pdf-build", pdf_methods(), build_density, check_pdf);
     append(out, "lights", "vsgl-gen", lights_methods(), sample_lights, check_lights);
-    append(out, "visibility", "ismap", visibility_methods(), vpl_visibility, check_visibility);
+    for (const auto& method : visibility_methods())
+      append(out, "visibility", "ismap", std::vector{method}, some_visibility, check_visibility(method.name));
     append(out, "shading", "shade", light_models(), make_shadowed_image, check_image);
     return out;
   }();
@@ -222,7 +252,7 @@ const std::vector<Candidate>& candidates() {
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list = {
       {"lights", [](gpu::Device& device, const std::string& method) { sample_lights(device, method); }},
-      {"visibility", [](gpu::Device& device, const std::string& method) { vpl_visibility(device, method); }},
+      {"visibility", [](gpu::Device& device, const std::string& method) { some_visibility(device, method); }},
       {"shading",
        [](gpu::Device& device, const std::string& method) { make_shadowed_image(device, method); }},
   };
