@@ -164,7 +164,61 @@ TEST(Traversal, CutsDeeperForSmallerErrors) {
   }
 }
 
-// The sum over its children decides, so that a node is not looked at for each of its shadows.
+std::vector<std::uint32_t> parents() {
+  std::vector<std::uint32_t> out(room().clusters.size());
+  for (std::uint32_t node = 0; node < out.size(); ++node)
+    if (const std::uint32_t first = room().clusters[node].children; first != 0)
+      for (std::uint32_t child = first; child < first + 4; ++child) out[child] = node;
+  return out;
+}
+
+// Each entry is a leaf, or small, or the sum over its siblings agrees with its parent, shadowed and not.
+TEST(Traversal, AcceptsByItsCriterion) {
+  const NodeVisibility spotted = [](std::uint32_t node, const TileSamples& all) {
+    return all.present & (node * 2654435761U >> 8);
+  };
+  const std::vector<std::uint32_t> parent_of = parents();
+  const std::vector<std::uint32_t>& levels = room().lights.levels;
+  const CutCriterion criterion = room().traversal().criterion(0.02);
+  const double eps = static_cast<double>(criterion.threshold);
+  std::size_t by_difference = 0;
+  for (const int tile : {2, 7}) {
+    const TileSamples samples = tile_samples(room().gbuffer, tile);
+    const auto lit = [&](std::uint32_t node) {
+      auto light = light_of({node}, samples);
+      for (std::size_t k = 0; k < kTileSamples; ++k)
+        if ((spotted(node, samples) >> k & 1U) == 0) light[k] = 0;
+      return light;
+    };
+    std::array<double, kTileSamples> whole;
+    whole.fill(static_cast<double>(criterion.floor));
+    for (std::uint32_t node = levels[criterion.start_level]; node < levels[criterion.start_level + 1]; ++node)
+      for (std::size_t k = 0; k < kTileSamples; ++k) whole[k] += lit(node)[k];
+
+    for (const TileCut::Entry& entry : room().traversal().cut(samples, criterion, spotted).entries) {
+      const auto light = light_of({entry.node}, samples);
+      double share = 0;
+      for (std::size_t k = 0; k < kTileSamples; ++k) share = std::max(share, light[k] / whole[k]);
+      EXPECT_NEAR(share, static_cast<double>(entry.share), 1e-3 * share + 1e-20);
+      if (room().clusters[entry.node].children == 0 || share < 1.001 * eps) continue;
+      ASSERT_GE(entry.node, levels[criterion.start_level + 1]) << "a start node without a reason";
+      const std::uint32_t parent = parent_of[entry.node], first = room().clusters[parent].children;
+      auto difference = light_of({parent}, samples), lit_difference = lit(parent);
+      for (std::uint32_t child = first; child < first + 4; ++child)
+        for (std::size_t k = 0; k < kTileSamples; ++k) {
+          difference[k] -= light_of({child}, samples)[k];
+          lit_difference[k] -= lit(child)[k];
+        }
+      for (std::size_t k = 0; k < kTileSamples; ++k) {
+        EXPECT_LT(std::abs(difference[k]), 1.01 * eps * whole[k]) << entry.node;
+        EXPECT_LT(std::abs(lit_difference[k]), 2.01 * eps * whole[k]) << entry.node;
+      }
+      ++by_difference;
+    }
+  }
+  EXPECT_GT(by_difference, 20U);
+}
+
 TEST(Traversal, RefinesWhereVisibilityDiffersWithinANode) {
   const TileSamples samples = tile_samples(room().gbuffer, 7);
   const CutCriterion criterion = room().traversal().criterion(0.05);
