@@ -57,7 +57,7 @@ TEST(VisibilityBits, SchemaTellsTheKind) {
   EXPECT_EQ(std::get<VisibilityBits>(read_visibility(folder / "bits.exr")).words, sample_bits(40).words);
   EXPECT_EQ(std::get<ShadowMaps>(read_visibility(folder / "maps.exr")).views.size(), 5u);
   write(folder / "lights.exr", sample_lights(3, false), sample_provenance());
-  expect_error(ErrorCode::wrong_schema, {"lights.exr", "'ism' or 'visibility' is needed"},
+  expect_error(ErrorCode::wrong_schema, {"lights.exr", "'ism' or 'visibility' or 'cut' is needed"},
                [&] { read_visibility(folder / "lights.exr"); });
 }
 
