@@ -38,7 +38,7 @@ void write_frame(const vsgl::RenderedFrame& frame, const vsgl::render::FramePath
   vsgl::write(outputs.add(paths.rsm), frame.rsm, provenance);
   if (frame.pdf) vsgl::write(outputs.add(paths.pdf), *frame.pdf, provenance);
   vsgl::write(outputs.add(paths.lights), frame.lights, provenance);
-  if (frame.visibility) vsgl::write(outputs.add(paths.ism), *frame.visibility, provenance);
+  if (frame.visibility) vsgl::write(outputs.add(paths.sight), *frame.visibility, provenance);
 }
 
 vsgl::Exit run(vsgl::Tool& tool, const Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {

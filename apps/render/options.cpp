@@ -51,9 +51,10 @@ void declare(Tool& tool, Arguments& a) {
   tool.input("--pipeline", a.pipeline,
              "pipeline JSON: the options of each stage (default: those of the tools)");
   tool.output("-o,--output", a.output, "image to write; %04d in its name stands for the frame")->required();
-  tool.output_folder("--keep", a.keep,
-                     "folder for gbuffer.exr, rsm.exr, pdf.exr, lights.exr and ism.exr (of several frames: "
-                     "gbuffer.0000.exr, ...)");
+  tool.output_folder(
+      "--keep", a.keep,
+      "folder for gbuffer.exr, rsm.exr, pdf.exr, lights.exr, ism.exr or cut.exr (of several frames: "
+      "gbuffer.0000.exr, ...), those that are made");
   CLI::Option* frame = app.get_option("--frame");
   CLI::Option* frames = app.add_option_function<std::string>(
       "--frames", [&a](const std::string& text) { a.frames = read_frames(text); },
@@ -65,12 +66,17 @@ void declare(Tool& tool, Arguments& a) {
       "--resolution",
       [&a](const std::string& text) { a.resolution = read_image_size("--resolution", text, kMaxResolution); },
       "pixels of the image, WIDTHxHEIGHT (default: the pipeline's, or else the scene's)");
+  app.add_option_function<double>(
+         "--error", [&a](double error) { a.error = error; },
+         "relative error of the image that the cut of a light tree may cause (default: the pipeline's)")
+      ->check(CLI::Range(1e-5, 1.0));
   app.add_flag("--direct", a.direct, "add the light sources' own light as a layer");
 }
 
 Pipeline resolve_pipeline(const Arguments& a, const CommonOptions& common) {
   Pipeline pipeline = a.pipeline.empty() ? Pipeline() : read_pipeline(a.pipeline);
   if (a.resolution) pipeline.rsm_bake.resolution = a.resolution;
+  if (a.error) pipeline.set_error(*a.error);
   pipeline.set_seed(common.seed);
   pipeline.set_skip(!common.no_skip);
   return pipeline;
@@ -91,7 +97,7 @@ FramePaths paths_of(int frame, const Arguments& a, const Pipeline& pipeline) {
   paths.rsm = kept("rsm");
   if (lights_method(pipeline.vsgl_gen.method).needs_pdf) paths.pdf = kept("pdf");
   paths.lights = kept("lights");
-  if (pipeline.ismap) paths.ism = kept("ism");
+  paths.sight = kept(pipeline.ismap ? "ism" : "cut");
   return paths;
 }
 
@@ -100,7 +106,7 @@ void check_outputs(const Arguments& a, const Pipeline& pipeline, bool overwrite)
     const FramePaths paths = paths_of(frame, a, pipeline);
     std::set<fs::path> taken;
     for (const fs::path* path :
-         {&paths.image, &paths.gbuffer, &paths.rsm, &paths.pdf, &paths.lights, &paths.ism}) {
+         {&paths.image, &paths.gbuffer, &paths.rsm, &paths.pdf, &paths.lights, &paths.sight}) {
       if (path->empty()) continue;
       OutputSet::check(*path, overwrite);
       if (!taken.insert(fs::weakly_canonical(*path)).second)

@@ -18,6 +18,7 @@ struct Arguments {
   std::optional<std::pair<int, int>> frames;  // first and last; none: the scene's one
   bool direct = false;
   std::optional<ImageSize> resolution;
+  std::optional<double> error;
 
   int first() const { return frames ? frames->first : scene.frame; }
   int last() const { return frames ? frames->second : scene.frame; }
@@ -30,7 +31,7 @@ Pipeline resolve_pipeline(const Arguments& a, const CommonOptions& common);
 
 // Where the artifacts of one frame go; empty for those that are not kept or not made.
 struct FramePaths {
-  std::filesystem::path image, gbuffer, rsm, pdf, lights, ism;
+  std::filesystem::path image, gbuffer, rsm, pdf, lights, sight;
 };
 // Throws bad_value where several frames would go to one file.
 FramePaths paths_of(int frame, const Arguments& a, const Pipeline& pipeline);

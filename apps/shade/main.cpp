@@ -1,9 +1,10 @@
-// shade --gbuffer gbuffer.exr --lights lights.exr [--ism ism.exr] [--rsm rsm.exr] -o indirect.exr: radiance
-// per pixel.
+// shade --gbuffer gbuffer.exr --lights lights.exr [--ism ism.exr | --cut cut.exr] [--rsm rsm.exr]
+// -o indirect.exr: radiance per pixel.
 
 #include <optional>
 
 #include "base/tool.h"
+#include "stages/cut/options.h"
 #include "stages/shading/options.h"
 
 namespace {
@@ -11,17 +12,23 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  fs::path gbuffer, lights, ism, rsm, output;
+  fs::path gbuffer, lights, ism, cut, rsm, output;
   vsgl::ShadingParams params;
+  vsgl::CutParams cut_params;  // of a tree that comes without a cut
 };
 
 void declare(vsgl::Tool& tool, Arguments& a) {
   tool.input("--gbuffer", a.gbuffer, "pixels to shade")->required();
   tool.input("--lights", a.lights, "virtual lights")->required();
-  tool.input("--ism", a.ism, "shadow maps or visibility bits of the lights (default: no shadows)");
+  CLI::Option* ism =
+      tool.input("--ism", a.ism, "what ismap found out about the lights (default: no shadows)");
+  CLI::Option* cut = tool.input("--cut", a.cut, "cut of light-cut through a tree (default: chosen here)");
+  cut->excludes(ism);
   tool.input("--rsm", a.rsm, "reflective shadow map: adds its direct light as a layer");
   tool.output("-o,--output", a.output, "radiance to write")->required();
   vsgl::add_options(tool.app(), a.params);
+  vsgl::add_options(tool.app(), a.cut_params);
+  tool.app().get_option("--error")->excludes(ism)->excludes(cut);  // they have been made for an error
 }
 
 vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
@@ -33,6 +40,8 @@ vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl:
   const vsgl::Lights lights = read("read lights", vsgl::read_lights, a.lights);
   std::optional<vsgl::Visibility> visibility;
   if (!a.ism.empty()) visibility = read("read ism", vsgl::read_visibility, a.ism);
+  if (!a.cut.empty()) visibility = read("read cut", vsgl::read_cut, a.cut);
+  if (!visibility && lights.is_tree()) visibility = vsgl::build_cut(gbuffer, lights, a.cut_params, report);
   a.params.skip = !tool.common().no_skip;
 
   vsgl::gpu::Device device(

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/option_json.h"
+#include "stages/cut/options.h"
 #include "stages/lights/options.h"
 #include "stages/pdf/options.h"
 #include "stages/shading/options.h"
@@ -19,13 +20,13 @@ void check_schema(const JsonValue& root) {
                 schema.where() + ": expected \"" + kSchema + "\", got \"" + schema.string() + "\"");
 }
 
-template <class Params>
-void read_stage(const JsonValue& root, const std::string& key, Params& params) {
+template <class... Params>
+void read_stage(const JsonValue& root, const std::string& key, Params&... params) {
   const auto object = root.find(key);
   if (!object) return;
   CLI::App app;
   app.option_defaults()->always_capture_default();
-  add_options(app, params);
+  (add_options(app, params), ...);
   options::read_object(app, *object);
 }
 
@@ -42,7 +43,7 @@ Pipeline read_pipeline(const std::filesystem::path& path) {
     pipeline.ismap.reset();
   else
     read_stage(root, "ismap", *pipeline.ismap);
-  read_stage(root, "shade", pipeline.shade);
+  read_stage(root, "shade", pipeline.shade, pipeline.light_cut);
   root.finish();
   return pipeline;
 }
@@ -55,6 +56,11 @@ void Pipeline::set_seed(std::uint64_t seed) {
 void Pipeline::set_skip(bool skip) {
   pdf_build.skip = shade.skip = skip;
   if (ismap) ismap->skip_powerless = skip;
+}
+
+void Pipeline::set_error(double error) {
+  light_cut.error = error;
+  if (ismap) ismap->error = error;
 }
 
 }  // namespace vsgl

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "stages/cut/cut.h"
 #include "stages/lights/lights.h"
 #include "stages/pdf/pdf.h"
 #include "stages/rsm/options.h"
@@ -19,10 +20,12 @@ struct Pipeline {
   PdfParams pdf_build;
   LightsParams vsgl_gen;
   std::optional<VisibilityParams> ismap = VisibilityParams{};  // none: no shadows
+  CutParams light_cut;  // of a tree of lights, without ismap, which chooses the cut itself
   ShadingParams shade;
 
   void set_seed(std::uint64_t seed);
   void set_skip(bool skip);  // leave out what the scene does not need
+  void set_error(double error);
 };
 
 // Reads a pipeline JSON (configs/schema/pipeline.schema.json): an object a stage, with what --config of its

@@ -61,6 +61,9 @@ RenderedFrame Renderer::render(scene::Scene scene) {
       frame.visibility =
           build_visibility({scene_, frame.lights, &frame.gbuffer}, *pipeline_.ismap, &device_, report_);
     });
+  else if (frame.lights.is_tree())
+    run(frame, "light-cut",
+        [&] { frame.visibility = build_cut(frame.gbuffer, frame.lights, pipeline_.light_cut, report_); });
   run(frame, "shade", [&] {
     frame.image = shade(frame.gbuffer, frame.lights, frame.visibility ? &*frame.visibility : nullptr,
                         pipeline_.shade, device_, report_);

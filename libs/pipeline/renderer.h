@@ -25,7 +25,7 @@ struct RenderedFrame {
   Rsm rsm;
   std::optional<Pdf> pdf;  // none: the lights do not follow one
   Lights lights;
-  std::optional<Visibility> visibility;  // none: no shadows
+  std::optional<Visibility> visibility;  // none: no shadows, and no cut to choose
   Indirect image;
   std::vector<StageRun> stages;     // in the order in which they ran
   std::size_t pipelines_built = 0;  // for this frame

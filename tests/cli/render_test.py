@@ -27,12 +27,17 @@ SCENES = {
 SMALL = {
     "rsm_bake": {"rsm_size": "32"},
     "pdf_build": {"gbuffer_lights": 64, "view_samples": 32},
-    "vsgl_gen": {"count": 48},
-    "ismap": {"points": 512, "tile": 16},
-    "shade": {},
+    "vsgl_gen": {"method": "fis-2016", "count": 48},
+    "ismap": {"method": "ism", "points": 512, "tile": 16},
+    "shade": {"light_model": "vsgl"},
 }
+TREE = {"vsgl_gen": {"method": "tree"}, "ismap": {"method": "auto"}, "shade": {"light_model": "fvpl"}}
+FOR_LISTS = ("auto", "ism", "raytraced")  # methods of ismap
 # Changes to SMALL; None takes a stage away.
 PIPELINES = {
+    "default": TREE,
+    "default, exact": {**TREE, "ismap": {"method": "rays", "exact": True, "error": 0.005}, "shade": {"light_model": "fvpl", "diffuse_scale": 1}},
+    "default, no shadows": {**TREE, "ismap": None, "shade": {"light_model": "fvpl", "error": 0.05}},
     "vsgl": {},
     "vpl": {"pdf_build": {"method": "flux"}, "vsgl_gen": {"method": "vpl"}, "shade": {"light_model": "vpl"}},
     "fis-2014": {"rsm_bake": {"rsm_normals": "paper"}, "pdf_build": {"method": "brsm-vpl"}, "vsgl_gen": {"method": "fis-2014"},
@@ -41,7 +46,7 @@ PIPELINES = {
     "no shadows": {"ismap": None},
     "drawn": {"rsm_bake": {"visible": "raster"}},
 }
-ON_BOTH = ["vsgl", "exact visibility", "drawn"]  # pipelines that run on both scenes; the others on the first
+ON_BOTH = ["default", "vsgl", "exact visibility", "drawn"]  # pipelines that run on both scenes; the others on the first
 KEPT = ["gbuffer.exr", "rsm.exr", "pdf.exr", "lights.exr", "ism.exr"]
 OWN_ATTRIBUTES = {"vsgl.tool", "vsgl.command", "vsgl.inputs"}
 
@@ -110,12 +115,20 @@ class RenderTest:
         at = lambda name: f"{into}/{name}.exr"
         stage = lambda key, *paths: self.tool(STAGES[key], *paths, *flags(document[key]))
         stage("rsm_bake", f"{scene}.json", "--gbuffer", at("gbuffer"), "--rsm", at("rsm"))
-        stage("pdf_build", "--rsm", at("rsm"), "--gbuffer", at("gbuffer"), "-o", at("pdf"))
-        stage("vsgl_gen", "--rsm", at("rsm"), "--pdf", at("pdf"), "-o", at("lights"))
+        tree, density = document["vsgl_gen"]["method"] == "tree", []
+        if not tree:
+            stage("pdf_build", "--rsm", at("rsm"), "--gbuffer", at("gbuffer"), "-o", at("pdf"))
+            density = ["--pdf", at("pdf")]
+        stage("vsgl_gen", "--rsm", at("rsm"), *density, "-o", at("lights"))
         shadows = []
         if document["ismap"] is not None:
             stage("ismap", f"{scene}.json", "--lights", at("lights"), "--gbuffer", at("gbuffer"), "-o", at("ism"))
             shadows = ["--ism", at("ism")]
+        elif tree:  # shade chooses the same cut where it is not given one
+            error = document["shade"].pop("error")
+            self.tool("light-cut", "--gbuffer", at("gbuffer"), "--lights", at("lights"), "--error", str(error), "-o", at("cut"))
+            stage("shade", "--gbuffer", at("gbuffer"), "--lights", at("lights"), "--rsm", at("rsm"), "-o", f"{into}.exr", "--error", str(error))
+            shadows = ["--cut", at("cut")]
         stage("shade", "--gbuffer", at("gbuffer"), "--lights", at("lights"), *shadows, "--rsm", at("rsm"), "-o", at("image"))
 
     def require_same(self, one, other):
@@ -138,28 +151,34 @@ class RenderTest:
         for artifact in made:
             self.require_same(f"{kept}/{artifact}", f"{apart}/{artifact}")
         self.tool("compare", f"{kept}/image.exr", f"{apart}/image.exr")
+        if (self.folder / f"{apart}.exr").exists():
+            self.require_same(f"{apart}.exr", f"{apart}/image.exr")
 
     def check_frames(self):
         self.tool("scene-gen", "cornell-glossy", "--resolution", "48x32", "--animate", "object", "--frames", "3", "-o", "moving.json")
-        (self.folder / "frames").mkdir()
-        document = pipeline({})
-        result = self.render("moving", document, "frames/image.%04d.exr", "--frames", "0:2", "--keep", "frames")
+        for name, document, kept in (("vsgl", pipeline({}), KEPT), ("tree", pipeline(TREE), [name for name in KEPT if name != "pdf.exr"])):
+            self.check_sequence(name, document, kept)
+
+    def check_sequence(self, into, document, kept):
+        (self.folder / into).mkdir()
+        result = self.render("moving", document, f"{into}/image.%04d.exr", "--frames", "0:2", "--keep", into)
         built = [frame["pipelines_built"] for frame in result["counts"]["frames"]]
-        require(built[0] > 5 and built[1:] == [0, 0], f"pipelines built for the frames: {built}")
+        require(built[0] > 3 and built[1:] == [0, 0], f"pipelines built for the frames: {built}")
         require([frame["frame"] for frame in result["counts"]["frames"]] == [0, 1, 2], "wrong frames in the report")
         images = []
         for frame in range(3):
             self.render("moving", document, "alone.exr", "--frame", str(frame))
             images.append((self.folder / "alone.exr").read_bytes())
-            require(images[-1] == (self.folder / f"frames/image.{frame:04}.exr").read_bytes(), f"frame {frame} depends on those before it")
-            for name in KEPT:
-                require((self.folder / f"frames/{name[:-4]}.{frame:04}.exr").is_file(), f"{name} of frame {frame} is missing")
+            require(images[-1] == (self.folder / f"{into}/image.{frame:04}.exr").read_bytes(), f"frame {frame} depends on those before it")
+            for name in kept:
+                require((self.folder / f"{into}/{name[:-4]}.{frame:04}.exr").is_file(), f"{name} of frame {frame} is missing")
         require(len(set(images)) == 3, "the frames do not differ")
 
     def check_threads(self):
-        for threads in ("1", "2"):
-            self.render("atrium", pipeline({}), f"threads{threads}.exr", "--direct", "--threads", threads)
-        require((self.folder / "threads1.exr").read_bytes() == (self.folder / "threads2.exr").read_bytes(), "two threads give other bytes")
+        for document in (pipeline({}), pipeline(TREE)):
+            for threads in ("1", "2"):
+                self.render("atrium", document, f"threads{threads}.exr", "--direct", "--threads", threads)
+            require((self.folder / "threads1.exr").read_bytes() == (self.folder / "threads2.exr").read_bytes(), "two threads give other bytes")
 
     def check_methods(self):
         tried = 0
@@ -170,7 +189,9 @@ class RenderTest:
             require(methods, f"{tool} lists no methods")
             key = "light_model" if tool == "shade" else "method"
             for method in methods:
-                self.render("cornell-glossy", pipeline({stage: {key: method}}), "method.exr")
+                on_tree = method == "tree" or (stage == "ismap" and method not in FOR_LISTS)
+                base = TREE if on_tree else {}
+                self.render("cornell-glossy", pipeline({**base, stage: {key: method}}), "method.exr")
                 tried += 1
         require(tried >= 12, f"only {tried} methods tried")
 
@@ -179,8 +200,18 @@ class RenderTest:
         result = json.loads(self.tool("render", "cornell-glossy.json", "-o", "default.exr", "--resolution", "8x8", "--json").out)
         stages = result["counts"]["frames"][0]["stages"]
         counts = {stage["tool"]: stage["counts"] for stage in stages}
-        require(list(counts) == list(STAGES.values()), f"stages that ran: {list(counts)}")
-        require(counts["vsgl-gen"]["lights"] + counts["vsgl-gen"]["dropped"] == 1024, f"not the default number of lights: {counts}")
+        tree = help_text.parse(self.tool("vsgl-gen", "--help").out).option("--method").default == "tree"
+        wanted = [tool for tool in STAGES.values() if not tree or tool != "pdf-build"]
+        require(list(counts) == wanted, f"stages that ran: {list(counts)}")
+        if not tree:
+            require(counts["vsgl-gen"]["lights"] + counts["vsgl-gen"]["dropped"] == 1024, f"not the default number of lights: {counts}")
+        same = lambda *options: self.tool("render", "cornell-glossy.json", "--resolution", "16x16", "-o", "error.exr", "--overwrite", *options)
+        images = []
+        (self.folder / "pipeline.json").write_text(json.dumps(pipeline(TREE)))
+        for options in ([], ["--error", "0.02"], ["--error", "0.3"]):
+            same("--pipeline", "pipeline.json", *options)
+            images.append(read_exr(self.folder / "error.exr")[1])
+        require(images[0] == images[1] != images[2], "--error does not replace the pipeline's")
 
     def check_schema(self):
         """The schema knows just the keys that the tools take, and the committed pipelines hold by it."""
@@ -205,6 +236,9 @@ class RenderTest:
 
     def check_report(self):
         result = self.render("cornell-glossy", pipeline({}), "report.exr")
+        cut = self.render("cornell-glossy", pipeline(PIPELINES["default, no shadows"]), "report.exr")
+        require([stage["tool"] for stage in cut["counts"]["frames"][0]["stages"]] == ["rsm-bake", "vsgl-gen", "light-cut", "shade"],
+                f"stages in the report: {cut['counts']['frames']}")
         jsonschema.validate(result, json.loads((ROOT / "configs/schema/result.schema.json").read_text()))
         stages = result["counts"]["frames"][0]["stages"]
         require([stage["tool"] for stage in stages] == list(STAGES.values()), f"stages in the report: {stages}")
