@@ -6,17 +6,21 @@ namespace vsgl {
 
 void add_options(CLI::App& app, VisibilityParams& params) {
   add_methods(app, visibility_methods(), params.method, "how visibility is found out");
-  app.add_option("--points", params.points_per_light, "ism: surface points a light")
+  app.add_option("--points", params.points_per_light, "ism, maps: surface points a light")
       ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--tile", params.tile, "ism: texels a side of a map, a power of two")
+  app.add_option("--tile", params.tile, "ism, maps: texels a side of a map, a power of two")
       ->check(CLI::Range(8, 512));
   app.add_option("--splat-scale", params.splat_scale,
-                 "ism: radius of a splatted disk, in radii of the disk that a point stands for")
+                 "ism, maps: radius of a splatted disk, in radii of the disk that a point stands for")
       ->check(CLI::Range(0.0, 4.0));
   app.add_flag_callback(
-      "--no-pull-push", [&params] { params.pull_push = false; }, "ism: leave the holes between splats open");
+      "--no-pull-push", [&params] { params.pull_push = false; },
+      "ism, maps: leave the holes between splats open");
   app.add_option("--error", params.error, "of a tree: relative error of the image that the cut may make")
       ->check(CLI::Range(1e-5, 1.0));
+  app.add_option("--level", params.level,
+                 "maps: level of the tree whose nodes get a map; -1: that with about 1024 nodes")
+      ->check(CLI::Range(-1, 32));
   app.add_flag("--exact", params.exact, "rays: one for each node of a tile's cut and pixel");
 }
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/find_method.h"
 #include "stages/visibility/ism.h"
+#include "stages/visibility/maps.h"
 #include "stages/visibility/rays.h"
 #include "stages/visibility/raytraced.h"
 #include "stages/visibility/visibility.h"
@@ -100,6 +101,12 @@ const std::vector<VisibilityMethod>& visibility_methods() {
        .for_trees = true,
        .needs_gbuffer = true,
        .run = visibility::trace_cut},
+      {.name = "maps",
+       .summary = "the same with imperfect shadow maps of one level of the tree in place of rays",
+       .for_trees = true,
+       .needs_gbuffer = true,
+       .needs_device = true,
+       .run = visibility::map_cut},
   };
   return methods;
 }

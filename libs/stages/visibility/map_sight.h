@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+
+#include "stages/visibility/sight.h"
+
+namespace vsgl::visibility {
+
+// The nodes of a tree's level and the leaves above it; every leaf is one of them or below one.
+std::vector<std::uint32_t> level_nodes(const Lights& tree, std::uint32_t level);
+
+// By shadow maps of the nodes that level_nodes() gave: deeper nodes use the map of their ancestor, shallower
+// ones the mean of two descendants'.
+class MapSight final : public Sight {
+ public:
+  // maps.views[i] is of mapped[i].
+  MapSight(const GBuffer& gbuffer, const Lights& tree, std::span<const interop::vec3> normals,
+           const ShadowMaps& maps, std::span<const std::uint32_t> mapped);
+  Seen see(std::span<const Pair> pairs) const override;
+  const char* name() const override { return "lookups"; }
+
+ private:
+  const ShadowMaps& maps_;
+  std::vector<std::array<std::uint32_t, 2>> maps_of_;  // of each node; twice the same for a single one
+};
+
+}  // namespace vsgl::visibility
