@@ -1,14 +1,12 @@
 #include "scene/procedural/tile_textures.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/error.h"
 #include "math/srgb.h"
+#include "scene/image_codec.h"
 
 namespace vsgl::scene {
 namespace {
@@ -67,18 +65,6 @@ std::uint8_t byte(double value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
 }
 
-std::string encode_png(const std::vector<std::uint8_t>& rgb) {
-  OIIO::Filesystem::IOVecOutput memory;
-  const auto output = OIIO::ImageOutput::create("png");
-  const OIIO::ImageSpec spec(side, side, 3, OIIO::TypeDesc::UINT8);
-  const bool written = output && output->set_ioproxy(&memory) && output->open("memory.png", spec) &&
-                       output->write_image(OIIO::TypeDesc::UINT8, rgb.data()) && output->close();
-  if (!written)
-    throw Error(ErrorCode::write_failed, "a texture cannot be encoded as PNG: " + OIIO::geterror());
-  const auto& bytes = memory.buffer();
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 // A picture whose pixel (u, v) at its centre is `colour(u, v)`.
 template <typename Colour>
 std::string paint(Colour colour) {
@@ -89,7 +75,7 @@ std::string paint(Colour colour) {
       const Vec3 value = colour((x + 0.5) / side, (y + 0.5) / side);
       for (const double component : to_array(value)) rgb.push_back(byte(component));
     }
-  return encode_png(rgb);
+  return image_codec().encode_png(side, side, rgb);
 }
 
 }  // namespace
