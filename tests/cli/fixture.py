@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs the whole chain once, small, for the cases to start from: scene.json, scene.glb, gbuffer.exr, rsm.exr, pdf.exr, lights.exr,
-ism.exr, indirect.exr."""
+ism.exr, indirect.exr; and a tree of lights, tree.exr."""
 
 import argparse
 import pathlib
@@ -25,6 +25,7 @@ def main():
         chain.vsgl_gen("--count", "16")
         chain.ismap("--points", "256", "--tile", "16")
         chain.shade()
+        chain.run("vsgl-gen", "--method", "tree", "--rsm", chain.path("rsm.exr"), "-o", chain.path("tree.exr"), outputs=["tree.exr"])
     except StageFailed as failure:
         print(f"FAIL {failure}")
         return 1
