@@ -18,7 +18,7 @@ struct Arguments {
 
 void declare(vsgl::Tool& tool, Arguments& a) {
   tool.input("--rsm", a.rsm, "reflective shadow map to cluster or sample")->required();
-  tool.input("--pdf", a.pdf, "density of the samples over its texels; tree: weights its splits, if given");
+  tool.input("--pdf", a.pdf, "density of the samples over its texels (methods that sample)");
   tool.output("-o,--output", a.output, "lights to write")->required();
   CLI::Option* info = tool.output("--info", a.info, "JSON with statistics of the lights");
   tool.app().add_flag("--dump", a.dump, "list the lights themselves in the JSON")->needs(info);

@@ -21,7 +21,7 @@ struct LightsParams {
   std::string kernel_solver = "newton";  // fis-2016: newton (exact) | bisection (12 steps, as printed)
   std::string power = "conserved";       // fis-2016: conserved (adds up to the RSM's) | paper (as printed)
   std::string points = "lattice";        // lattice | fibonacci | random
-  int level = -1;  // tree: -1, all of it; 0..16, a list of that level's nodes and of the leaves above it
+  int level = -1;  // tree: -1, all of it; 0..64, a list of that level's nodes and of the leaves above it
   std::uint64_t seed = 0;
 };
 
@@ -42,12 +42,12 @@ struct LightSet {
   std::vector<std::uint32_t> levels;
 };
 
-// A way to generate lights. `run` may assume checked parameters, a density that is of this RSM and, where it
-// needs one, positive somewhere; lights without power may be among a list.
+// A way to generate lights. `run` may assume checked parameters and, where it needs a density, one that is
+// positive somewhere; lights without power may be among a list.
 struct LightsMethod {
   std::string name;
   std::string summary;  // one line, for --list-methods
-  bool needs_pdf = true, uses_pdf = true, needs_device = true;
+  bool needs_pdf = true, needs_device = true;
   LightSet (*run)(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 };
 const std::vector<LightsMethod>& lights_methods();

@@ -25,7 +25,7 @@ void add_options(CLI::App& app, LightsParams& params) {
   app.add_option(
          "--level", params.level,
          "tree: -1, all of it; else a plain list of this level's nodes (0: the root) and the leaves above")
-      ->check(CLI::Range(-1, 16));
+      ->check(CLI::Range(-1, 64));
 }
 
 }  // namespace vsgl

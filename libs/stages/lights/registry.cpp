@@ -21,9 +21,9 @@ void check_params(const LightsParams& params) {
                 "kernel_solver: \"" + params.kernel_solver + "\" is none of newton, bisection");
   if (params.power != "conserved" && params.power != "paper")
     throw Error(ErrorCode::bad_value, "power: \"" + params.power + "\" is none of conserved, paper");
-  if (params.level < -1 || params.level > 16)
+  if (params.level < -1 || params.level > 64)
     throw Error(ErrorCode::out_of_range,
-                "level: " + std::to_string(params.level) + " is outside -1..16; -1 takes the whole tree");
+                "level: " + std::to_string(params.level) + " is outside -1..64; -1 takes the whole tree");
   point_set_kind(params.points);
 }
 
@@ -58,7 +58,6 @@ const std::vector<LightsMethod>& lights_methods() {
       {.name = "texels",
        .summary = "every texel that reflects, neither sampled nor filtered",
        .needs_pdf = false,
-       .uses_pdf = false,
        .run = generate_texels},
       {.name = "tree",
        .summary = "every texel that reflects, and clusters of them level by level up to one of all",
@@ -81,7 +80,7 @@ Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& param
     throw Error(ErrorCode::missing_option, "pdf: method " + method.name + " needs one; give --pdf pdf.exr");
   if (method.needs_device && !device)
     throw Error(ErrorCode::internal, "generate_lights: method " + method.name + " without a device");
-  if (pdf && method.uses_pdf) check_density(rsm, *pdf);
+  if (method.needs_pdf) check_density(rsm, *pdf);
   Lights out;
   out.method = method.name;
   out.anchor = rsm.anchor;

@@ -24,8 +24,8 @@ LightSet level_of(const LightSet& tree, int level) {
   return list;
 }
 
-std::vector<LitTexel> collect(const Rsm& rsm, const Pdf* pdf, Report& report) {
-  std::vector<LitTexel> texels = lit_texels(rsm, pdf);
+std::vector<LitTexel> collect(const Rsm& rsm, Report& report) {
+  std::vector<LitTexel> texels = lit_texels(rsm);
   report.count("lit_texels", texels.size());
   report.count("unlit_texels", rsm.texel_count() - texels.size());
   if (texels.size() > std::numeric_limits<int>::max() / 2)
@@ -39,13 +39,15 @@ std::vector<LitTexel> collect(const Rsm& rsm, const Pdf* pdf, Report& report) {
 }  // namespace
 
 // A k-d tree over all texels that reflect: its leaves are the texels, its inner nodes clusters of them.
-LightSet generate_tree(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device*,
-                       Report& report) {
-  std::vector<LitTexel> texels = collect(rsm, pdf, report);
+LightSet generate_tree(const Rsm& rsm, const Pdf*, const LightsParams& params, gpu::Device*, Report& report) {
+  report.skipped("sampling",
+                 "method tree clusters every texel that reflects: density, count, points and kernels play no "
+                 "part");
+  std::vector<LitTexel> texels = collect(rsm, report);
   TexelTree split;
   {
     const PhaseTimer timer(report, "split");
-    split = split_texels(std::move(texels), pdf != nullptr);
+    split = split_texels(std::move(texels));
   }
   const PhaseTimer timer(report, "merge");
   LightSet tree{tree_lights(rsm, split), std::move(split.levels)};

@@ -1,28 +1,58 @@
 #include "stages/lights/tree_split.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
 namespace vsgl {
 namespace {
 
-// Length of a unit normal among the features, in scene radii: opposite normals are further apart than any two
-// points, so that clusters of mixed orientation are split first.
+// Length of a unit normal among the features, in root mean square distances of the lit positions from their
+// mean; found by measurement (docs/sampling.md).
 constexpr double kNormalScale = 2;
 
-// The dimension along which the texels reach furthest.
-std::size_t longest_axis(std::span<const LitTexel> texels) {
-  std::array<float, 6> low = texels.front().feature, high = low;
+// Moments of one feature over some texels, from a reference near them.
+struct Sums {
+  double count = 0, first = 0, second = 0;
+
+  void add(double x) {
+    count += 1;
+    first += x;
+    second += x * x;
+  }
+  void add(const Sums& other) {
+    count += other.count;
+    first += other.first;
+    second += other.second;
+  }
+  // Sum of squared distances from the mean.
+  double spread() const { return count > 0 ? second - first * first / count : 0; }
+};
+
+// What remains of the spread when the texels of `part` are split off from those of `all`.
+double spread_of_both(const Sums& all, const Sums& part) {
+  const Sums rest{all.count - part.count, all.first - part.first, all.second - part.second};
+  return part.spread() + rest.spread();
+}
+
+// The dimension along which the texels spread most.
+std::size_t widest_axis(std::span<const LitTexel> texels) {
+  std::array<double, 6> first = {}, second = {};
+  const auto& reference = texels.front().feature;
   for (const LitTexel& texel : texels)
     for (std::size_t axis = 0; axis < 6; ++axis) {
-      low[axis] = std::min(low[axis], texel.feature[axis]);
-      high[axis] = std::max(high[axis], texel.feature[axis]);
+      const auto x = static_cast<double>(texel.feature[axis] - reference[axis]);
+      first[axis] += x;
+      second[axis] += x * x;
     }
-  std::size_t longest = 0;
+  const auto spread = [&](std::size_t axis) {
+    return Sums{static_cast<double>(texels.size()), first[axis], second[axis]}.spread();
+  };
+  std::size_t widest = 0;
   for (std::size_t axis = 1; axis < 6; ++axis)
-    if (high[axis] - low[axis] > high[longest] - low[longest]) longest = axis;
-  return longest;
+    if (spread(axis) > spread(widest)) widest = axis;
+  return widest;
 }
 
 // Total order along an axis.
@@ -34,37 +64,70 @@ struct Before {
   }
 };
 
-// How many of the first texels hold half of the importance; at least an eighth of all on either side, so that
-// the tree stays shallow.
-std::size_t weighted_half(std::span<LitTexel> texels, Before before) {
-  double wanted = 0;
-  for (const LitTexel& texel : texels) wanted += 0.5 * static_cast<double>(texel.importance);
-  auto begin = texels.begin(), end = texels.end();
-  while (end - begin > 1) {
-    const auto middle = begin + (end - begin) / 2;
-    std::nth_element(begin, middle, end, before);
-    double held = 0;
-    for (auto texel = begin; texel != middle; ++texel) held += static_cast<double>(texel->importance);
-    if (held <= wanted) {
-      wanted -= held;
-      begin = middle;
-    } else {
-      end = middle;
-    }
-  }
-  const std::size_t margin = texels.size() / 8 + 2;
-  if (texels.size() <= 2 * margin) return texels.size() / 2;
-  return std::clamp(static_cast<std::size_t>(begin - texels.begin()), margin, texels.size() - margin);
+// Trees of m leaves whose inner nodes all have four children exist for m = 1 modulo 3; so halves are kept at
+// 2 and quarters at 1 modulo 3: `residue`.
+std::size_t aligned(std::size_t count, std::size_t residue) {
+  return count - 1 + (residue + 4 - count % 3) % 3;
 }
 
-// Splits texels in two along their longest extent and returns how many come first: nearly half of them, so
-// that `residue` remains modulo 3. With nodes of four children a tree of m leaves has no empty one if m = 1
-// modulo 3; so halves are kept at 2, quarters at 1.
-std::size_t split(std::span<LitTexel> texels, std::size_t residue, bool weighted) {
+// How many of some sorted texels make the first part of the best split.
+std::size_t best_of_sorted(std::span<const LitTexel> texels, std::size_t axis, std::size_t residue) {
+  const auto at = [&](std::size_t k) {
+    return static_cast<double>(texels[k].feature[axis] - texels.front().feature[axis]);
+  };
+  Sums all, part;
+  for (std::size_t k = 0; k < texels.size(); ++k) all.add(at(k));
+  std::size_t best = residue;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t count = 1; count < texels.size(); ++count) {
+    part.add(at(count - 1));
+    const double spread = spread_of_both(all, part);
+    if (count % 3 != residue || spread >= least) continue;
+    least = spread;
+    best = count;
+  }
+  return best;
+}
+
+// The same of many texels in any order, between equal bins along the axis. At least an eighth of the texels
+// is on either side, so that the tree stays shallow; where bins do not allow that, half of them.
+std::size_t best_of_bins(std::span<const LitTexel> texels, std::size_t axis) {
+  const auto [low, high] = std::minmax_element(
+      texels.begin(), texels.end(),
+      [axis](const LitTexel& a, const LitTexel& b) { return a.feature[axis] < b.feature[axis]; });
+  const float origin = low->feature[axis], extent = high->feature[axis] - origin;
+  if (!(extent > 0)) return texels.size() / 2;
+  constexpr std::size_t kBins = 32;
+  std::array<Sums, kBins> bins;
+  for (const LitTexel& texel : texels) {
+    const float x = texel.feature[axis] - origin;
+    bins[std::min(static_cast<std::size_t>(x / extent * kBins), kBins - 1)].add(static_cast<double>(x));
+  }
+  Sums all, part;
+  for (const Sums& bin : bins) all.add(bin);
+  std::size_t best = texels.size() / 2;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Sums& bin : bins) {
+    part.add(bin);
+    const double spread = spread_of_both(all, part);
+    if (8 * std::min(part.count, all.count - part.count) < all.count || spread >= least) continue;
+    least = spread;
+    best = static_cast<std::size_t>(part.count);
+  }
+  return best;
+}
+
+// Splits texels in two along their widest axis, where the spread of both parts is least, and returns how many
+// come first.
+std::size_t split(std::span<LitTexel> texels, std::size_t residue) {
   if (texels.size() <= residue) return texels.size();
-  const Before before{longest_axis(texels)};
-  const std::size_t half = weighted ? weighted_half(texels, before) : texels.size() / 2;
-  const std::size_t count = half - 1 + (residue + 4 - half % 3) % 3;
+  const Before before{widest_axis(texels)};
+  constexpr std::size_t kSorted = 32;
+  if (texels.size() <= kSorted) {
+    std::sort(texels.begin(), texels.end(), before);
+    return best_of_sorted(texels, before.axis, residue);
+  }
+  const std::size_t count = aligned(best_of_bins(texels, before.axis), residue);
   std::nth_element(texels.begin(), texels.begin() + static_cast<std::ptrdiff_t>(count), texels.end(), before);
   return count;
 }
@@ -80,8 +143,7 @@ using Split = std::array<std::uint32_t, 5>;
 // Splits the texels from the root down; large halves are tasks of their own.
 class Splitter {
  public:
-  Splitter(std::vector<LitTexel>& texels, bool weighted)
-      : texels_(texels), weighted_(weighted), splits_(inner_nodes(count())) {}
+  explicit Splitter(std::vector<LitTexel>& texels) : texels_(texels), splits_(inner_nodes(count())) {}
 
   // Of all inner nodes: each before those below it, and these child by child.
   std::vector<Split> run() {
@@ -100,7 +162,7 @@ class Splitter {
 
   std::uint32_t middle(std::uint32_t begin, std::uint32_t end, std::size_t residue) {
     const std::span part = std::span(texels_).subspan(begin, end - begin);
-    return begin + static_cast<std::uint32_t>(split(part, residue, weighted_));
+    return begin + static_cast<std::uint32_t>(split(part, residue));
   }
 
   // `index`: of the node among the inner ones.
@@ -129,7 +191,6 @@ class Splitter {
   }
 
   std::vector<LitTexel>& texels_;
-  bool weighted_;
   std::vector<Split> splits_;
 };
 
@@ -160,26 +221,36 @@ TexelTree lay_out(std::vector<LitTexel> texels, const std::vector<Split>& splits
   return tree;
 }
 
+void scale_normals(std::vector<LitTexel>& texels) {
+  std::array<Sums, 3> position;
+  for (const LitTexel& texel : texels)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      position[axis].add(static_cast<double>(texel.feature[axis] - texels.front().feature[axis]));
+  const double spread = position[0].spread() + position[1].spread() + position[2].spread();
+  const auto scale = static_cast<float>(
+      kNormalScale * std::sqrt(std::max(spread, 0.0) / static_cast<double>(texels.size())));
+  for (LitTexel& texel : texels)
+    for (std::size_t axis = 3; axis < 6; ++axis) texel.feature[axis] *= scale;
+}
+
 }  // namespace
 
-std::vector<LitTexel> lit_texels(const Rsm& rsm, const Pdf* pdf) {
+std::vector<LitTexel> lit_texels(const Rsm& rsm) {
   const auto texels = static_cast<std::uint32_t>(rsm.size) * static_cast<std::uint32_t>(rsm.size);
-  const auto scale = static_cast<float>(kNormalScale * rsm.scene_radius);
   std::vector<LitTexel> lit;
   for (std::uint32_t layer = 0; layer < rsm.layers.size(); ++layer)
     for (std::uint32_t texel = 0; texel < texels; ++texel) {
       const interop::Moments& moments = rsm.layers[layer].pyramid[texel];
       if (!(moments.weight > 0)) continue;
       const interop::vec3 &y = moments.position, &n = moments.normal_mean;
-      lit.push_back({.feature = {y.x, y.y, y.z, scale * n.x, scale * n.y, scale * n.z},
-                     .importance = pdf ? pdf->layers[layer].pyramid[texel] * moments.weight : 1,
-                     .index = layer * texels + texel});
+      lit.push_back({.feature = {y.x, y.y, y.z, n.x, n.y, n.z}, .index = layer * texels + texel});
     }
+  scale_normals(lit);
   return lit;
 }
 
-TexelTree split_texels(std::vector<LitTexel> texels, bool weighted) {
-  const std::vector<Split> splits = Splitter(texels, weighted).run();
+TexelTree split_texels(std::vector<LitTexel> texels) {
+  const std::vector<Split> splits = Splitter(texels).run();
   return lay_out(std::move(texels), splits);
 }
 

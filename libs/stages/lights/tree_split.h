@@ -13,7 +13,6 @@ namespace vsgl {
 // A texel as the splits see it. `index` counts row by row over the RSM's layers.
 struct LitTexel {
   std::array<float, 6> feature;  // position, m; geometric normal times a length that makes both comparable
-  float importance;              // >= 0
   std::uint32_t index;
 };
 
@@ -32,13 +31,12 @@ struct TexelTree {
   std::vector<std::uint32_t> levels;  // first node of each level, and the number of nodes
 };
 
-// The texels of an RSM that reflect, in the order of their indices; their importance is 1 without a
-// density, else density times reflected power.
-std::vector<LitTexel> lit_texels(const Rsm& rsm, const Pdf* pdf);
+// The texels of an RSM that reflect, in the order of their indices.
+std::vector<LitTexel> lit_texels(const Rsm& rsm);
 
-// Halves and halves again along the longest extent until nodes hold one texel: halves of equal number or,
-// `weighted`, of equal importance. Equal texels are told apart by their indices: the result does not depend
-// on the number of threads.
-TexelTree split_texels(std::vector<LitTexel> texels, bool weighted);
+// Splits in two and again in two, along the feature that varies most, where that leaves the least spread,
+// until nodes hold one texel. Equal texels are told apart by their indices: the result does not depend on the
+// number of threads.
+TexelTree split_texels(std::vector<LitTexel> texels);
 
 }  // namespace vsgl
