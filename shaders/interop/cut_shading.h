@@ -5,20 +5,20 @@
 
 VSGL_INTEROP_BEGIN
 
-// Receivers of a block, all of one tile; a mask of two words.
+// Most receivers of a block, all of one tile; a mask of two words.
 VSGL_CONST uint CUT_BLOCK = 64u;
 
 // One workgroup: receivers that share a list of clusters, sorted by what their evaluation needs.
 struct CutBlock {
   uint receiver;   // first in the list of receivers
   uint receivers;  // how many, 1..CUT_BLOCK
-  uint points;     // items from here on: like points to all receivers, of parallel normals, without specular
-                   // emission
-  uint distant;    // from here on: like points to all receivers
+  uint plain;      // first item: far from all receivers, of parallel normals, without specular emission
+  uint glossy;     // from here on: the same with specular emission
+  uint near;       // from here on: near, of parallel normals
   uint general;    // from here on: all others
   uint end;
 };
-VSGL_CHECK_SIZE(CutBlock, 24)
+VSGL_CHECK_SIZE(CutBlock, 28)
 
 // An item of a list: index of the cluster, and where visibility is known two words: bit k % 32 of word k / 32
 // is set where receiver k of the block sees it.

@@ -76,8 +76,35 @@ Cluster load_cluster(uint index) {
   return c;
 }
 
-vec3 cluster_emission(Cluster c, vec3 u, float inverse_d2) {
-  return fast_fvpl_emission(EMISSION == NDF_NONE ? NDF_NONE : c.ndf, c, u, inverse_d2);
+// Specular BRDF times cosine, 1/sr, averaged over a footprint far away: exact, with the density of half vectors spread by that of the
+// directions. 1 / sharpness per axis becomes alpha^2 / 2 of 1 / (2 sharpness) in the plane of incidence and 1 / (2 sharpness cos^2) across
+// it; their geometric mean keeps the peak. `light`: local.
+float distant_specular(Receiver r, vec3 light, float inverse_sharpness) {
+  float alpha2 = r.lobe.alpha2;
+  float spread = min(0.5 * inverse_sharpness / r.lobe.cos_view, 1.0);
+  vec3 h = vec3(r.lobe.sin_view, 0.0, r.lobe.cos_view) + light;
+  float sin2 = h.x * h.x + h.y * h.y;
+  float cos2 = h.z * h.z;
+  float c = max(light.z, 0.0);
+  if (r.lobe.ndf != NDF_GGX)
+    return exact_specular(r.lobe.ndf, min(alpha2 + spread, 1.0), r.lobe.cos_view, r.slope_view, r.lobe.view_lambda, c, c, sin2, cos2);
+  // ggx_spread_d() of lib/fvpl.glsl.
+  float hh = max(sin2 + cos2, 1e-8);
+  float b = alpha2 + sqrt(2.0 * spread * (alpha2 + 2.0 * spread));
+  float q = max(sin2 + b * cos2, min(b, 1.0) * hh);
+  float masking = r.slope_view * c + ggx_slope_cosine(alpha2, c) * r.lobe.cos_view;
+  float inverse = 1.0 / (q * masking);
+  float inverse_q = inverse * masking;
+  float sharp = hh * inverse_q;
+  float density = sharp * sharp * (alpha2 + 2.0 * b * (b - alpha2) * cos2 * inverse_q);
+  return c > 0.0 ? 0.5 * INVERSE_PI * density * c * (inverse * q) : 0.0;
+}
+
+vec2 distant_reflection(Receiver r, vec3 u, float inverse_sharpness) {
+  float above = BUMPED == 0 || dot(r.geometric, u) > 0.0 ? 1.0 : 0.0;
+  vec2 reflection = vec2(above * INVERSE_PI * max(dot(r.normal, u), 0.0), 0.0);
+  if (RECEIVER != NDF_NONE) reflection.y = above * distant_specular(r, specular_local(r.lobe, u), inverse_sharpness);
+  return reflection;
 }
 
 struct Sums {
@@ -89,9 +116,9 @@ void add(inout Sums sums, vec3 emission, vec2 received) {
   if (RECEIVER != NDF_NONE) sums.specular += received.y * emission;
 }
 
-// Like a point, of parallel normals, without specular emission. A diffuse receiver takes neither a root nor a direction: its emission,
-// its reflection and 1 / d2 are cosines over d2^2.
-void add_point(Receiver r, Cluster c, float seen, inout Sums sums) {
+// Far away, of parallel normals, without specular emission. A diffuse receiver takes neither a root nor a direction: its emission, its
+// reflection and 1 / d2 are cosines over d2^2.
+void add_plain(Receiver r, Cluster c, float seen, inout Sums sums) {
   vec3 v = c.position - r.position;
   float d2 = dot(v, v);
   if (RECEIVER == NDF_NONE) {
@@ -101,25 +128,41 @@ void add_point(Receiver r, Cluster c, float seen, inout Sums sums) {
     return;
   }
   float inverse_d = inversesqrt(d2);
+  float inverse_d2 = inverse_d * inverse_d;
   vec3 u = v * inverse_d;
-  add(sums, (seen * inverse_d * inverse_d) * fvpl_emission_diffuse(c, u), exact_reflection(r, u));
+  float inverse_sharpness = inverse_d2 / c.inverse_variance;
+  add(sums, (seen * inverse_d2) * fvpl_emission_diffuse(c, u), distant_reflection(r, u, inverse_sharpness));
 }
 
-// Like a point, of any emission.
-void add_distant(Receiver r, Cluster c, float seen, inout Sums sums) {
+// The same with specular emission.
+void add_glossy(Receiver r, Cluster c, float seen, inout Sums sums) {
   vec3 v = c.position - r.position;
   float inverse_d = inversesqrt(dot(v, v));
   float inverse_d2 = inverse_d * inverse_d;
   vec3 u = v * inverse_d;
-  add(sums, (seen * inverse_d2) * cluster_emission(c, u, inverse_d2), exact_reflection(r, u));
+  float inverse_sharpness = inverse_d2 / c.inverse_variance;
+  add(sums, (seen * inverse_d2) * fast_fvpl_emission_flat(c.ndf, c, u, inverse_d2), distant_reflection(r, u, inverse_sharpness));
 }
 
-// Any cluster, as a footprint.
+void add_footprint(Receiver r, Cluster c, vec3 v, FvplView view, vec3 emission, float seen, inout Sums sums) {
+  float above = BUMPED == 0 ? seen : seen * geometric_horizon(r, v, c.inverse_variance);
+  add(sums, above * emission, receive(r, fvpl_incoming(view, c.inverse_variance)));
+}
+
+// Near by, of parallel normals.
+void add_near(Receiver r, Cluster c, float seen, inout Sums sums) {
+  vec3 v = c.position - r.position;
+  FvplView view = fvpl_view(v, c.inverse_variance);
+  vec3 emission = EMISSION == NDF_NONE ? fvpl_emission_diffuse(c, view.u) : fast_fvpl_emission_flat(c.ndf, c, view.u, view.inverse_d2);
+  add_footprint(r, c, v, view, emission, seen, sums);
+}
+
+// Any.
 void add_general(Receiver r, Cluster c, float seen, inout Sums sums) {
   vec3 v = c.position - r.position;
   FvplView view = fvpl_view(v, c.inverse_variance);
-  float above = BUMPED == 0 ? seen : seen * geometric_horizon(r, v, c.inverse_variance);
-  add(sums, above * cluster_emission(c, view.u, view.inverse_d2), receive(r, fvpl_incoming(view, c.inverse_variance)));
+  vec3 emission = fast_fvpl_emission(EMISSION == NDF_NONE ? NDF_NONE : c.ndf, c, view.u, view.inverse_d2);
+  add_footprint(r, c, v, view, emission, seen, sums);
 }
 
 void main() {
@@ -131,15 +174,22 @@ void main() {
     receivers[j] = make_receiver(place, surfaces[place], push.camera);
     sums[j] = Sums(vec3(0.0), vec3(0.0));
   }
-  for (uint i = block.points; i < block.distant; ++i) {
+  for (uint i = block.plain; i < block.glossy; ++i) {
     Item item = load_item(i);
     Cluster c = load_diffuse(item.cluster);
-    [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_point(receivers[j], c, visibility(item, j), sums[j]);
+    [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_plain(receivers[j], c, visibility(item, j), sums[j]);
   }
-  for (uint i = block.distant; i < block.general; ++i) {
+  if (EMISSION != NDF_NONE) {
+    for (uint i = block.glossy; i < block.near; ++i) {
+      Item item = load_item(i);
+      Cluster c = load_cluster(item.cluster);
+      [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_glossy(receivers[j], c, visibility(item, j), sums[j]);
+    }
+  }
+  for (uint i = block.near; i < block.general; ++i) {
     Item item = load_item(i);
     Cluster c = load_cluster(item.cluster);
-    [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_distant(receivers[j], c, visibility(item, j), sums[j]);
+    [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_near(receivers[j], c, visibility(item, j), sums[j]);
   }
   for (uint i = block.general; i < block.end; ++i) {
     Item item = load_item(i);

@@ -24,7 +24,7 @@ struct Image {
 void shade_pixels(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds,
                   std::span<const std::uint8_t> shaded, CutPass& pass, bool skip, Image& image,
                   Report& report) {
-  for (const CutReceivers& receivers : sort_into_blocks(gbuffer, kinds, shaded, skip)) {
+  for (const CutReceivers& receivers : sort_into_blocks(gbuffer, kinds, shaded, pass.narrow(), skip)) {
     const std::vector<interop::CutSums> sums = pass.run(receivers, CutPass::kWords, report);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       image.diffuse[receivers.pixels[i]] = sums[i].diffuse;
@@ -97,8 +97,9 @@ void report_classes(std::span<const std::uint8_t> kinds, const CutClusters& clus
 }
 
 void report_counts(const CutCounts& counts, std::size_t seen, bool skip, Report& report) {
-  report.count("items_point", counts.points);
-  report.count("items_distant", counts.distant);
+  report.count("items_plain", counts.plain);
+  report.count("items_glossy", counts.glossy);
+  report.count("items_near", counts.near);
   report.count("items_general", counts.general);
   report.count("evaluations", counts.evaluations);
   report.count("evaluations_per_pixel",

@@ -10,7 +10,6 @@
 #include "interop/model.h"
 #include "interop/shading.h"
 #include "math/interop_vec.h"
-#include "math/microfacet.h"
 #include "stages/shading/cut_pixels.h"
 
 namespace vsgl {
@@ -22,11 +21,14 @@ using interop::Surface;
 using interop::TILE;
 
 constexpr int kTile = static_cast<int>(TILE), kSquare = 8;
+// Shading normals that differ by less count as the geometric ones: interpolation leaves rounding.
+constexpr double kBend = 1e-5;
+constexpr std::size_t kClasses = 4;
 constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
 
 bool is_bumped(const Surface& s) {
-  return s.normal.x != s.shading_normal.x || s.normal.y != s.shading_normal.y ||
-         s.normal.z != s.shading_normal.z;
+  const Vec3 bend = to_double(s.shading_normal) - to_double(s.normal);
+  return dot(bend, bend) > kBend * kBend;
 }
 
 // Calls visit(pixel) for those of a tile, square by square.
@@ -40,23 +42,24 @@ void visit_tile(const GBuffer& gbuffer, int tile_x, int tile_y, Visit visit) {
   }
 }
 
-// Starts a block where the last one is full or another tile's.
-void append(CutReceivers& receivers, std::uint32_t tile, std::uint32_t pixel) {
-  if (receivers.blocks.empty() || receivers.blocks.back().tile != tile ||
-      receivers.blocks.back().count == CUT_BLOCK)
-    receivers.blocks.push_back({tile, static_cast<std::uint32_t>(receivers.pixels.size()), 0});
-  receivers.pixels.push_back(pixel);
-  ++receivers.blocks.back().count;
+// Moves the pixels of one tile into blocks of at most `size`.
+void append(CutReceivers& receivers, std::uint32_t tile, std::span<const std::uint32_t> pixels,
+            std::uint32_t size) {
+  for (std::size_t first = 0; first < pixels.size(); first += size) {
+    const std::span part = pixels.subspan(first, std::min<std::size_t>(size, pixels.size() - first));
+    receivers.blocks.push_back(
+        {tile, static_cast<std::uint32_t>(receivers.pixels.size()), static_cast<std::uint32_t>(part.size())});
+    receivers.pixels.insert(receivers.pixels.end(), part.begin(), part.end());
+  }
 }
 
 bool has_specular(const Cluster& c) {
   return c.ndf != interop::NDF_NONE;
 }
 
-// Box about the receivers of a block, and the sharpest of their lobes across the plane of incidence.
+// Box about the receivers of a block.
 struct Bounds {
   std::array<float, 3> low, high;
-  float across = 0;
 
   Bounds() {
     low.fill(std::numeric_limits<float>::max());
@@ -78,19 +81,10 @@ struct Bounds {
     }
     return sum;
   }
-  // As fvpl_is_point() for all receivers at once.
-  bool is_point(const Cluster& c) const {
-    const float sharpness = distance2(c.position) * c.inverse_variance;
-    return sharpness > interop::CLUSTER_POINT && sharpness > interop::CLUSTER_POINT_SPECULAR * across;
+  bool is_far(const Cluster& c) const {
+    return distance2(c.position) * c.inverse_variance > interop::CLUSTER_POINT;
   }
 };
-
-// SpecularReceiver::across.
-float lobe_sharpness_across(const GBuffer& gbuffer, const Surface& s) {
-  const Vec3 view = normalise(gbuffer.camera - to_double(s.position));
-  const double cosine = std::max(dot(view, to_double(s.shading_normal)), cos_min);
-  return static_cast<float>(ndf_sharpness(s.ndf, static_cast<double>(s.alpha)) / (4 * cosine * cosine));
-}
 
 // Lists of one block.
 class BlockLists {
@@ -101,8 +95,6 @@ class BlockLists {
     for (std::size_t k = 0; k < pixels_.size(); ++k) {
       const Surface& s = gbuffer.pixels[pixels_[k]];
       bounds_.add(s.position);
-      if (receivers.ndf != interop::NDF_NONE && s.ndf != interop::NDF_NONE)
-        bounds_.across = std::max(bounds_.across, lobe_sharpness_across(gbuffer, s));
       const std::uint32_t x = pixels_[k] % static_cast<std::uint32_t>(gbuffer.width) % TILE,
                           y = pixels_[k] / static_cast<std::uint32_t>(gbuffer.width) % TILE;
       bits_[k] = static_cast<std::uint8_t>(y * TILE + x);
@@ -118,8 +110,8 @@ class BlockLists {
       }
       const std::uint32_t index = clusters.entries[e];
       const Cluster& c = clusters.clusters[index];
-      const bool plain = c.normal_sharpness > interop::CLUSTER_FLAT && !has_specular(c);
-      std::vector<std::uint32_t>& list = lists[!bounds_.is_point(c) ? 2 : plain ? 0 : 1];
+      const bool flat = c.normal_sharpness > interop::CLUSTER_FLAT;
+      std::vector<std::uint32_t>& list = lists[!flat ? 3 : !bounds_.is_far(c) ? 2 : has_specular(c) ? 1 : 0];
       list.push_back(index);
       if (!cut_.has_visibility()) continue;
       list.push_back(static_cast<std::uint32_t>(mask));
@@ -127,7 +119,7 @@ class BlockLists {
     }
   }
 
-  std::array<std::vector<std::uint32_t>, 3> lists;  // points, distant, general
+  std::array<std::vector<std::uint32_t>, kClasses> lists;  // plain, glossy, near, general
   std::size_t unseen = 0;
 
  private:
@@ -152,21 +144,36 @@ class BlockLists {
 }  // namespace
 
 std::vector<CutReceivers> sort_into_blocks(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds,
-                                           std::span<const std::uint8_t> shaded, bool skip) {
-  std::array<CutReceivers, interop::NDF_ANY + 1> lists;
+                                           std::span<const std::uint8_t> shaded, std::uint32_t narrow,
+                                           bool skip) {
+  constexpr std::size_t kKinds = interop::NDF_ANY;
+  std::array<CutReceivers, 2 * kKinds> lists;  // wide, narrow
+  std::array<std::vector<std::uint32_t>, kKinds> pixels;
+  std::array<bool, kKinds> bumped{};
   std::uint32_t tile = 0;
   for (int y = 0; y * kTile < gbuffer.height; ++y)
-    for (int x = 0; x * kTile < gbuffer.width; ++x, ++tile)
+    for (int x = 0; x * kTile < gbuffer.width; ++x, ++tile) {
       visit_tile(gbuffer, x, y, [&](std::uint32_t pixel) {
         if (!shaded[pixel]) return;
-        CutReceivers& list = lists[skip ? kinds[pixel] : interop::NDF_ANY];
-        list.bumped = list.bumped || !skip || is_bumped(gbuffer.pixels[pixel]);
-        append(list, tile, pixel);
+        const std::uint8_t kind = kinds[pixel];
+        bumped[kind] = bumped[kind] || !skip || is_bumped(gbuffer.pixels[pixel]);
+        pixels[kind].push_back(pixel);
       });
+      for (std::size_t kind = 0; kind < kKinds; ++kind) {
+        const std::span all(pixels[kind]);
+        const std::size_t rest = all.size() % CUT_BLOCK,
+                          wide = rest <= CUT_BLOCK / 2 ? all.size() - rest : all.size();
+        append(lists[2 * kind], tile, all.first(wide), CUT_BLOCK);
+        append(lists[2 * kind + 1], tile, all.subspan(wide), narrow);
+        pixels[kind].clear();
+      }
+    }
   std::vector<CutReceivers> out;
-  for (std::uint32_t ndf = 0; ndf < lists.size(); ++ndf) {
-    lists[ndf].ndf = ndf;
-    if (!lists[ndf].pixels.empty()) out.push_back(std::move(lists[ndf]));
+  for (std::uint32_t i = 0; i < lists.size(); ++i) {
+    lists[i].ndf = skip ? i / 2 : interop::NDF_ANY;
+    lists[i].wide = i % 2 == 0;
+    lists[i].bumped = bumped[i / 2];
+    if (!lists[i].pixels.empty()) out.push_back(std::move(lists[i]));
   }
   return out;
 }
@@ -198,7 +205,7 @@ CutClusters gather_clusters(const Lights& lights, const Cut& cut) {
 CutLists build_lists(const GBuffer& gbuffer, const Cut& cut, const CutClusters& clusters,
                      const CutReceivers& receivers, std::span<const CutReceivers::Block> blocks, bool skip,
                      CutCounts& counts) {
-  std::vector<std::array<std::vector<std::uint32_t>, 3>> lists(blocks.size());
+  std::vector<std::array<std::vector<std::uint32_t>, kClasses>> lists(blocks.size());
   std::size_t unseen = 0;
 #pragma omp parallel for schedule(dynamic, 16) reduction(+ : unseen)
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -213,22 +220,23 @@ CutLists build_lists(const GBuffer& gbuffer, const Cut& cut, const CutClusters& 
   const std::size_t words = cut.has_visibility() ? interop::CUT_MASKED_ITEM : interop::CUT_ITEM;
   std::size_t next = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const std::size_t points = lists[b][0].size() / words, distant = lists[b][1].size() / words,
-                      general = lists[b][2].size() / words;
+    const std::size_t plain = lists[b][0].size() / words, glossy = lists[b][1].size() / words,
+                      near = lists[b][2].size() / words, general = lists[b][3].size() / words;
     const auto at = [](std::size_t item) { return static_cast<std::uint32_t>(item); };
-    out.blocks.push_back({blocks[b].first - blocks.front().first, blocks[b].count, at(next),
-                          at(next + points), at(next + points + distant),
-                          at(next + points + distant + general)});
-    counts.points += points;
-    counts.distant += distant;
+    const std::size_t end = next + plain + glossy + near + general;
+    out.blocks.push_back({blocks[b].first - blocks.front().first, blocks[b].count, at(next), at(next + plain),
+                          at(next + plain + glossy), at(end - general), at(end)});
+    counts.plain += plain;
+    counts.glossy += glossy;
+    counts.near += near;
     counts.general += general;
-    counts.evaluations += (points + distant + general) * blocks[b].count;
-    next += points + distant + general;
+    counts.evaluations += (end - next) * blocks[b].count;
+    next = end;
   }
   out.items.resize(next * words);
 #pragma omp parallel for schedule(static)
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    auto target = out.items.begin() + static_cast<std::ptrdiff_t>(out.blocks[b].points * words);
+    auto target = out.items.begin() + static_cast<std::ptrdiff_t>(out.blocks[b].plain * words);
     for (const auto& list : lists[b]) target = std::copy(list.begin(), list.end(), target);
   }
   return out;

@@ -18,14 +18,17 @@ struct CutReceivers {
     std::uint32_t tile = 0;
     std::uint32_t first = 0, count = 0;  // of `pixels`; at most CUT_BLOCK
   };
-  std::uint32_t ndf = interop::NDF_NONE;  // of all of them; NDF_ANY without `skip`
+  std::uint32_t ndf = interop::NDF_NONE;  // of all of them; without `skip` NDF_ANY, though they are the same
+  bool wide = true;                       // blocks of CUT_BLOCK; else of the narrow width
   bool bumped = false;                    // a shading normal differs from its geometric one
   std::vector<std::uint32_t> pixels;      // of the image
   std::vector<Block> blocks;
 };
-// The pixels whose `shaded` is 1, tile by tile; within a tile by squares of 8x8.
+// The pixels whose `shaded` is 1, tile by tile; within a tile by squares of 8x8. Where no more than half of a
+// block is left of a tile, narrow blocks take it, which leave fewer of their places empty.
 std::vector<CutReceivers> sort_into_blocks(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds,
-                                           std::span<const std::uint8_t> shaded, bool skip);
+                                           std::span<const std::uint8_t> shaded, std::uint32_t narrow,
+                                           bool skip);
 
 // Those nodes of a tree that a cut uses.
 struct CutClusters {
@@ -37,7 +40,7 @@ CutClusters gather_clusters(const Lights& lights, const Cut& cut);
 
 // Counts of the items of lists, and of evaluations (items times receivers).
 struct CutCounts {
-  std::size_t points = 0, distant = 0, general = 0;
+  std::size_t plain = 0, glossy = 0, near = 0, general = 0;
   std::size_t unseen = 0;  // entries that no receiver of a block sees, left out
   std::size_t evaluations = 0;
 };

@@ -28,7 +28,7 @@ gpu::ComputePipeline build_pipeline(const CutReceivers& receivers, std::uint32_t
       {{interop::SHADING_RECEIVER_ID, receivers.ndf},
        {interop::SHADING_EMISSION_ID, emission},
        {interop::SHADING_BUMPED_ID, receivers.bumped},
-       {interop::SHADING_PIXELS_ID, interop::CUT_BLOCK / lanes},
+       {interop::SHADING_PIXELS_ID, receivers.wide ? interop::CUT_BLOCK / lanes : 1},
        {interop::CUT_LANES_ID, lanes},
        {interop::CUT_MASKED_ID, masked}});
 }
@@ -50,6 +50,10 @@ CutPass::CutPass(const GBuffer& gbuffer, const Cut& cut, const CutClusters& clus
       skip_(skip),
       device_(device),
       cluster_buffer_(gpu::Buffer::from(device, clusters.clusters)) {}
+
+std::uint32_t CutPass::narrow() const {
+  return lanes_of(device_);
+}
 
 // How many blocks from `first` on fit at once.
 std::size_t CutPass::leading(const CutReceivers& receivers, std::size_t first, std::size_t words) const {

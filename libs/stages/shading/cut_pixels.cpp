@@ -12,7 +12,7 @@ namespace {
 using interop::Surface;
 
 // A sample lies on a pixel's surface where the line between them leaves the pixel's tangent plane at less
-// than this sine, and where the geometric normals agree to this cosine.
+// than this sine, and where the normals agree to this cosine.
 constexpr double kLargestRise = 0.1;
 constexpr double kSmallestAgreement = 0.9;
 // Irradiance is nearly linear in the normal, so the pixel's own may differ by this much from the mean of its
@@ -31,7 +31,8 @@ bool on_surface(const Surface& pixel, const Surface& sample) {
   const Vec3 v = to_double(sample.position) - to_double(pixel.position), n = to_double(pixel.normal);
   const double rise = dot(v, n);
   return rise * rise <= kLargestRise * kLargestRise * dot(v, v) &&
-         dot(n, to_double(sample.normal)) >= kSmallestAgreement;
+         dot(n, to_double(sample.normal)) >= kSmallestAgreement &&
+         dot(to_double(pixel.shading_normal), to_double(sample.shading_normal)) >= kSmallestAgreement;
 }
 
 }  // namespace

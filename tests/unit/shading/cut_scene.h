@@ -53,7 +53,6 @@ inline Radiance cut_sum(const GBuffer& gbuffer, std::size_t index,
   Radiance sum;
   if (p.surface.id == interop::NO_INSTANCE) return sum;
   const SpecularReceiver r = specular_receiver(p.surface.ndf, p.surface.alpha, p.normal, p.view);
-  const double across = p.is_specular() ? r.across : 0;
   const std::uint32_t x = static_cast<std::uint32_t>(index) % static_cast<std::uint32_t>(gbuffer.width),
                       y = static_cast<std::uint32_t>(index) / static_cast<std::uint32_t>(gbuffer.width);
   const Cut::Tile& tile =
@@ -67,7 +66,8 @@ inline Radiance cut_sum(const GBuffer& gbuffer, std::size_t index,
     const FvplView view =
         fvpl_view(to_double(c.position) - p.position, static_cast<double>(c.inverse_variance));
     const Vec3 emission = fvpl_emission(c, view.u, view.inverse_d2);
-    const FvplReflection reflection = fvpl_is_point(view.sharpness, across)
+    const bool is_far = c.normal_sharpness > interop::CLUSTER_FLAT && fvpl_is_point(view.sharpness, 0);
+    const FvplReflection reflection = is_far
                                           ? fvpl_point(r, view.u, view.inverse_d2)
                                           : fvpl_extended(r, view, static_cast<double>(c.inverse_variance));
     sum.diffuse += to_double(p.surface.diffuse) * emission * reflection.diffuse;
