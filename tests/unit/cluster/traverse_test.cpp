@@ -25,7 +25,7 @@ struct Room {
 
   Room() {
     const Rsm rsm = room_rsm(32, 2);
-    const TexelTree tree = split_texels(lit_texels(rsm, nullptr), false);
+    const TexelTree tree = split_texels(lit_texels(rsm));
     lights = {"tree", rsm.anchor, rsm.scene_radius, 0, tree_lights(rsm, tree), tree.levels};
     clusters = pack_clusters(lights);
   }
