@@ -53,9 +53,10 @@ void write_exr(const std::filesystem::path& path, const ExrFile& file);
 // wrong_channel_type for nothing (HALF is widened). Does not look at values: see check_finite.
 ExrFile read_exr(const std::filesystem::path& path);
 
-// Threads that compress and decompress pixels, of the whole process; 0: only the calling one. The bytes do
-// not depend on it.
+// Threads that convert, compress and decompress pixels, of the whole process; 0: only the calling one.
+// Default: as many as OpenMP's at the first reading or writing. The bytes do not depend on it.
 void set_exr_threads(int threads);
+void use_default_exr_threads();  // unless a number has been set
 
 // Access by name; each throws a numbered error naming file, part, channel (and pixel).
 const std::vector<float>& float_channel(const ExrFile& file, const ExrPart& part, std::size_t level,

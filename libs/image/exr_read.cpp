@@ -194,6 +194,7 @@ ExrFile read_exr(const std::filesystem::path& path) {
     throw Error(ErrorCode::file_not_found,
                 path.string() +
                     ": no such file, or it cannot be opened; check the path, or run the tool that writes it");
+  use_default_exr_threads();
   Imf::Header::setMaxImageSize(kMaxWidth, kMaxHeight);
   Imf::Header::setMaxTileSize(kMaxTileSide, kMaxTileSide);
   try {

@@ -14,6 +14,7 @@
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTiledOutputPart.h>
 #include <OpenEXR/ImfVecAttribute.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <new>
@@ -25,6 +26,8 @@ namespace vsgl {
 namespace {
 
 constexpr unsigned kTileSize = 64;
+
+bool threads_are_set = false;
 
 Imf::Compression to_imf(ExrCompression compression) {
   switch (compression) {
@@ -137,13 +140,20 @@ void write_part(Imf::MultiPartOutputFile& file, int index, const ExrPart& part) 
 }  // namespace
 
 void set_exr_threads(int threads) {
+  threads_are_set = true;
   Imf::setGlobalThreadCount(std::max(0, threads));
+}
+
+void use_default_exr_threads() {
+  const int threads = omp_get_max_threads();
+  if (!threads_are_set) set_exr_threads(threads > 1 ? threads : 0);
 }
 
 void write_exr(const std::filesystem::path& path, const ExrFile& file) {
   require(!file.parts.empty(), "no parts");
   for (const ExrPart& part : file.parts) check_shape(part);
   check_finite(file);
+  use_default_exr_threads();
   // The format wants one display window for all parts.
   const ExrPart& first = file.parts.front();
   const Imath::Box2i display(Imath::V2i(0, 0), Imath::V2i(first.width() - 1, first.height() - 1));
