@@ -167,6 +167,7 @@ inline ShadowMaps sample_shadow_maps(int views) {
   return maps;
 }
 
+// With the layer of bias reduction, or with those of a cut.
 inline Indirect sample_indirect(bool specular, bool direct, bool cancellation) {
   Counter c;
   Indirect out;
@@ -177,6 +178,10 @@ inline Indirect sample_indirect(bool specular, bool direct, bool cancellation) {
     if (specular) out.specular.push_back(c.vec3());
     if (direct) out.direct.push_back(c.vec3());
     if (cancellation) out.cancellation.push_back(c.next());
+    if (!cancellation) {
+      out.cut_size.push_back(c.next());
+      out.error_estimate.push_back(c.next());
+    }
   }
   return out;
 }

@@ -146,6 +146,8 @@ TEST(RoundTrip, Indirect) {
       EXPECT_TRUE(same_bytes(a.specular, b.specular));
       EXPECT_TRUE(same_bytes(a.direct, b.direct));
       EXPECT_EQ(a.cancellation, b.cancellation);
+      EXPECT_EQ(a.cut_size, b.cut_size);
+      EXPECT_EQ(a.error_estimate, b.error_estimate);
       const ExrFile file = read_exr(folder / "i.exr");
       const float expected = a.diffuse[3].y + (specular ? a.specular[3].y : 0);
       EXPECT_EQ(float_channel(file, file.parts[0], 0, "indirect.G")[3], expected);
