@@ -79,7 +79,7 @@ inline void add_sphere(scene::Scene& scene, Vec3 centre, double radius, int segm
 
 // A flat cluster of unit power.
 inline interop::Light make_light(Vec3 position, Vec3 normal, double variance = 0) {
-  interop::Light light;
+  interop::Light light{};
   light.position = light.origin = narrow(position);
   light.normal = light.shading_normal = light.diffuse_axis = light.specular_axis = light.incident =
       narrow(normal);

@@ -11,10 +11,6 @@
 namespace vsgl {
 namespace {
 
-// From this many triangles on `auto` expects a preview of a tree to be wanted; docs/visibility.md has the
-// measurement.
-constexpr std::size_t kHeavy = 800'000;
-
 template <class T>
 void check_range(const char* name, T value, T low, T high) {
   if (value >= low && value <= high) return;
@@ -83,7 +79,7 @@ const VisibilityMethod& row(const std::string& name) {
 const std::vector<VisibilityMethod>& visibility_methods() {
   static const std::vector<VisibilityMethod> methods = {
       {.name = "auto",
-       .summary = "of a list ism; of a tree rays, or ratio where the scene is heavy",
+       .summary = "ism for a list of lights, rays for a tree",
        .for_lists = true,
        .for_trees = true},
       {.name = "ism",
@@ -114,8 +110,7 @@ const std::vector<VisibilityMethod>& visibility_methods() {
 VisibilityChoice choose_visibility(const VisibilityInputs& inputs, const VisibilityParams& params) {
   if (params.method != "auto") return {row(params.method), "asked for"};
   if (!inputs.lights.is_tree()) return {row("ism"), "the lights are a list"};
-  const std::string triangles = std::to_string(inputs.scene.triangle_count()) + " triangles, ";
-  return {row("rays"), triangles + "at most " + std::to_string(kHeavy)};
+  return {row("rays"), "the lights are a tree"};
 }
 
 Visibility build_visibility(const VisibilityInputs& inputs, const VisibilityParams& params,
