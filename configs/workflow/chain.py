@@ -12,17 +12,27 @@ class StageFailed(Exception):
 
 
 class Chain:
-    """The stages from scene to image in one folder. Each method runs one tool and appends a row to `rows`."""
+    """The stages from scene to image in one folder. Each method runs one tool and appends a row to `rows`. Chains in one folder
+    share scene, G-buffer and RSM; `suffix` tells their other files apart. What a tool finds unchanged has the row of the run that
+    made it, from `earlier`, rows of a former chain."""
 
-    def __init__(self, bin_dir, folder, common=()):
+    def __init__(self, bin_dir, folder, common=(), suffix="", earlier=()):
         self.bin = pathlib.Path(bin_dir).resolve()
         self.folder = pathlib.Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         self.common = list(common)
+        self.suffix = suffix
+        self.earlier = {row["stage"]: row for row in earlier}
         self.rows = []
+        self.changed = False  # whether a tool made something
 
     def path(self, name):
         return str(self.folder / name)
+
+    def own(self, name):
+        """Name of a file that is this chain's alone."""
+        stem, _, extension = name.rpartition(".")
+        return f"{stem}{self.suffix}.{extension}"
 
     def run(self, tool, *arguments, outputs):
         """Runs a tool; returns its JSON result."""
@@ -35,7 +45,10 @@ class Chain:
         sys.stderr.write(done.stderr)
         result = json.loads(done.stdout)
         size = sum(pathlib.Path(self.path(name)).stat().st_size for name in outputs)
-        self.rows.append({"stage": tool, "wall_s": seconds, "output_bytes": size, "result": result})
+        row = {"stage": tool, "wall_s": seconds, "output_bytes": size, "result": result}
+        unchanged = any(entry["what"] == tool and entry["why"].startswith("unchanged") for entry in result["skipped"])
+        self.changed |= not unchanged
+        self.rows.append(self.earlier.get(tool, row) if unchanged else row)
         return result
 
     def scene_gen(self, *arguments):
@@ -47,21 +60,28 @@ class Chain:
 
     def pdf_build(self, *arguments):
         self.run("pdf-build", "--rsm", self.path("rsm.exr"), "--gbuffer", self.path("gbuffer.exr"), "-o",
-                 self.path("pdf.exr"), *arguments, outputs=["pdf.exr"])
+                 self.path(self.own("pdf.exr")), *arguments, outputs=[self.own("pdf.exr")])
 
     def vsgl_gen(self, *arguments):
-        self.run("vsgl-gen", "--rsm", self.path("rsm.exr"), "--pdf", self.path("pdf.exr"), "-o",
-                 self.path("lights.exr"), "--info", self.path("lights.json"), *arguments,
-                 outputs=["lights.exr", "lights.json"])
+        density = any(row["stage"] == "pdf-build" for row in self.rows)
+        pdf = ["--pdf", self.path(self.own("pdf.exr"))] if density else []
+        names = [self.own("lights.exr"), self.own("lights.json")]
+        self.run("vsgl-gen", "--rsm", self.path("rsm.exr"), *pdf, "-o", self.path(names[0]), "--info", self.path(names[1]), *arguments,
+                 outputs=names)
 
     def ismap(self, *arguments):
-        self.run("ismap", self.path("scene.json"), "--lights", self.path("lights.exr"), "-o", self.path("ism.exr"),
-                 *arguments, outputs=["ism.exr"])
+        name = self.own("ism.exr")
+        self.run("ismap", self.path("scene.json"), "--lights", self.path(self.own("lights.exr")), "--gbuffer", self.path("gbuffer.exr"),
+                 "-o", self.path(name), *arguments, outputs=[name])
 
     def shade(self, *arguments):
-        self.run("shade", "--gbuffer", self.path("gbuffer.exr"), "--lights", self.path("lights.exr"), "--ism",
-                 self.path("ism.exr"), "--rsm", self.path("rsm.exr"), "-o", self.path("indirect.exr"), *arguments,
-                 outputs=["indirect.exr"])
+        name = self.own("indirect.exr")
+        self.run("shade", "--gbuffer", self.path("gbuffer.exr"), "--lights", self.path(self.own("lights.exr")), "--ism",
+                 self.path(self.own("ism.exr")), "--rsm", self.path("rsm.exr"), "-o", self.path(name), *arguments, outputs=[name])
+
+    def reference(self, *arguments):
+        self.run("reference", self.path("scene.json"), "--gbuffer", self.path("gbuffer.exr"), "-o", self.path("reference.exr"), *arguments,
+                 outputs=["reference.exr"])
 
 
 def phases(result):
