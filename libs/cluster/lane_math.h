@@ -113,7 +113,7 @@ VSGL_LANE float cosine_integral_2pi(const Lobe& lobe, float c) {
   return (low + (up - low) * most(f, 0)) * lobe.inverse;
 }
 
-// [Heitz 2014] Smith's Lambda times c, of GGX and of Beckmann (which Phong takes): finite at c = 0.
+// [Heitz 2014] c (1 + 2 Lambda) of GGX, finite at c = 0, and Smith's Lambda of Beckmann, which Phong takes.
 VSGL_LANE float ggx_slope(float alpha2, float c) {
   return std::sqrt(c * c + alpha2 * most(1 - c * c, 0));
 }
