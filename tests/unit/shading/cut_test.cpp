@@ -32,7 +32,7 @@ Lights mixed_lights(const BoxOptions& options) {
   lights.method = "tree";
   for (std::size_t i = 0; i < lights.lights.size(); ++i) {
     interop::Light& light = lights.lights[i];
-    if (i % 3 == 0) light.normal_deficit = 0.1f * static_cast<float>(i % 5);
+    light.normal_deficit = i % 3 == 0 ? 0.1f * static_cast<float>(i % 5) : 0;
     if (i % 2 == 0) light.power_specular = {};
     light.lobe_variance = 0.01f * static_cast<float>(i % 4);
   }

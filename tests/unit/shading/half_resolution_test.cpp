@@ -38,7 +38,7 @@ Lights ceiling() {
   lights.method = "tree";
   test::Uniform uniform;
   for (int i = 0; i < 60; ++i) {
-    interop::Light light;
+    interop::Light light{};
     light.position = light.origin = test::to_float({3 * uniform() - 1.5, 3 * uniform() - 1.5, 1.5});
     light.variance = 1e-3f;
     light.power_diffuse = {0.3f, 0.2f, 0.1f};
