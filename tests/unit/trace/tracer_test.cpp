@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <random>
 
 #include "../expect_error.h"
@@ -42,6 +43,32 @@ TEST(Tracer, OccludesWhatBruteForceOccludes) {
   EXPECT_GT(hidden, 4000);
   EXPECT_LT(hidden, 16000);
   EXPECT_LE(wrong, 2);  // rays through edges
+}
+
+// Single precision moves few rays across an edge.
+TEST(Tracer, PacketsAreWhatSingleRaysAre) {
+  const scene::Scene scene = soup(60);
+  const Tracer tracer(scene);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> number(-1.5, 1.5);
+  const auto point = [&] { return Vec3{number(random), number(random), number(random)}; };
+  int hidden = 0, wrong = 0;
+  for (int packet = 0; packet < 1000; ++packet) {
+    const auto active = static_cast<std::uint32_t>(random() & 0xFFFF);
+    PointPacket a, b;
+    std::uint32_t expected = 0;
+    for (std::uint32_t i = 0; i < PointPacket::kLanes; ++i) {
+      const Vec3 from = point(), to = point(), normal_a = normalise(point()), normal_b = normalise(point());
+      a.set(i, test::narrow(from), test::narrow(normal_a));
+      b.set(i, test::narrow(to), test::narrow(normal_b));
+      const bool occluded = tracer.occluded(from, normal_a, to, normal_b);
+      expected |= static_cast<std::uint32_t>(occluded && (active >> i & 1U) != 0) << i;
+    }
+    hidden += std::popcount(expected);
+    wrong += std::popcount(expected ^ tracer.occluded(a, b, active));
+  }
+  EXPECT_GT(hidden, 1500);
+  EXPECT_LE(wrong, 2);
 }
 
 TEST(Tracer, FindsTheNearestSurface) {
