@@ -28,8 +28,9 @@ bool shares(const Surface& s) {
   return s.id != interop::NO_INSTANCE && (receiver_ndf(s) == interop::NDF_NONE || s.alpha >= kSmoothestAlpha);
 }
 
-double power_of_two(double x, int exponent) {
-  for (int i = 0; i < exponent; ++i) x *= x;
+// x^(2^times).
+double squared(double x, int times) {
+  for (int i = 0; i < times; ++i) x *= x;
   return x;
 }
 
@@ -43,7 +44,7 @@ double similarity(const Surface& s, const Surface& other) {
   const double bumps = std::max(dot(to_double(s.shading_normal), to_double(other.shading_normal)), 0.0);
   const double distance = std::abs(dot(n, to_double(other.position) - to_double(s.position)));
   const double reach = std::max(kPlaneDistance * static_cast<double>(s.depth), 1e-30);
-  const double weight = power_of_two(agreement, 5) * power_of_two(bumps, 3) / (1 + distance / reach);
+  const double weight = squared(agreement, 5) * squared(bumps, 3) / (1 + distance / reach);
   return weight >= kLeastSimilarity ? weight : 0;
 }
 

@@ -104,7 +104,7 @@ TEST(Interleave, SharpLobesTakeAllLights) {
 
 TEST(Interleave, RespectsVisibility) {
   const Plane plane(0);
-  const auto none_visible = [&](std::size_t light) { return light % 3 == 0; };
+  const auto hidden = [&](std::size_t light) { return light % 3 == 0; };
   VisibilityBits bits;
   bits.width = plane.gbuffer.width;
   bits.height = plane.gbuffer.height;
@@ -112,7 +112,7 @@ TEST(Interleave, RespectsVisibility) {
   bits.words.resize(static_cast<std::size_t>(bits.words_per_pixel()) * plane.gbuffer.pixels.size());
   for (std::size_t i = 0; i < plane.lights.lights.size(); ++i)
     for (std::size_t p = 0; p < plane.gbuffer.pixels.size(); ++p)
-      if (!none_visible(i)) bits.words[i / 32 * plane.gbuffer.pixels.size() + p] |= 1U << (i % 32);
+      if (!hidden(i)) bits.words[i / 32 * plane.gbuffer.pixels.size() + p] |= 1U << (i % 32);
   const Visibility visibility = bits;
   const auto image = [&](const char* schedule) {
     return test::shade_box(plane.gbuffer, plane.lights, {.schedule = schedule}, &visibility).diffuse;
