@@ -35,7 +35,7 @@ Scene cornell() {
   const Rsm rsm = baker.rsm(rsm_params);
   Scene out{baker.gbuffer(), {}, {}, {}};
   const Pdf pdf = build_pdf(rsm, &out.gbuffer, {.method = "flux"}, device, report);
-  out.lights = generate_lights(rsm, &pdf, {.count = 256}, &device, report);
+  out.lights = generate_lights(rsm, &pdf, {.method = "fis-2016", .count = 256}, &device, report);
   const auto look = [&](const char* method) {
     return build_visibility({scene, out.lights, &out.gbuffer}, {.method = method}, &device, report);
   };

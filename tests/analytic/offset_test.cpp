@@ -37,6 +37,7 @@ Render render(const std::string& name, Vec3 offset) {
   pdf_params.gbuffer_lights = 256;
   const Pdf pdf = build_pdf(rsm, &out.gbuffer, pdf_params, device, report);
   LightsParams lights_params;
+  lights_params.method = "fis-2016";
   lights_params.count = 256;
   const Lights lights = generate_lights(rsm, &pdf, lights_params, &device, report);
   const Visibility maps = build_visibility({scene, lights}, {}, &device, report);

@@ -22,7 +22,7 @@ def main():
         chain.scene_gen("cornell-glossy", "--resolution", "48x32")
         chain.rsm_bake("--rsm-size", "32")
         chain.pdf_build("--gbuffer-lights", "64")
-        chain.vsgl_gen("--count", "16")
+        chain.vsgl_gen("--method", "fis-2016", "--count", "16")
         chain.ismap("--points", "256", "--tile", "16")
         chain.shade()
         chain.run("vsgl-gen", "--method", "tree", "--rsm", chain.path("rsm.exr"), "-o", chain.path("tree.exr"), outputs=["tree.exr"])

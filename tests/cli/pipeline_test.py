@@ -29,7 +29,7 @@ def run_chain(bin_dir, folder, *common):
     chain.scene_gen("cornell-glossy", "--resolution", "32x24")
     chain.rsm_bake("--rsm-size", "32")
     chain.pdf_build("--gbuffer-lights", "64")
-    chain.vsgl_gen("--count", "48")
+    chain.vsgl_gen("--method", "fis-2016", "--count", "48")
     chain.ismap("--points", "1024", "--tile", "16")
     chain.shade()
     for row in chain.rows:

@@ -34,7 +34,7 @@ def render(bin_dir, folder, scene, shade):
     chain.scene_gen(*scene, "--resolution", "64x36")
     chain.rsm_bake("--rsm-size", "64")
     chain.pdf_build("--gbuffer-lights", "256")
-    chain.vsgl_gen("--count", "128", *(["--method", "vpl"] if "vpl" in shade else []))
+    chain.vsgl_gen("--count", "128", "--method", "vpl" if "vpl" in shade else "fis-2016")
     chain.ismap("--points", "2048", "--tile", "32")
     chain.shade(*shade)
     return chain.path("indirect.exr")

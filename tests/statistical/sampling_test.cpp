@@ -116,6 +116,7 @@ TEST(Sampling, LightsCarryThePowerOfTheRsmForEveryDensity) {
     const Pdf pdf = build_pdf(rsm, &gbuffer, pdf_params, device(), report);
     const auto ratio = [&](const std::string& rule) {
       LightsParams params;
+      params.method = "fis-2016";
       params.power = rule;
       const Lights lights = generate_lights(rsm, &pdf, params, &device(), report);
       return describe(lights, rsm, params, false).at("power").at("ratio").get<double>();

@@ -15,7 +15,7 @@
 namespace vsgl {
 
 struct LightsParams {
-  std::string method = "fis-2016";  // one of lights_methods()
+  std::string method = "tree";  // one of lights_methods()
   int count = 1024;                 // samples, 1..1048576
   double kernel_scale = 1;  // K > 0: kernels hold K / count of the samples; power is not affected in fis-2016
   std::string kernel_solver = "newton";  // fis-2016: newton (exact) | bisection (12 steps, as printed)

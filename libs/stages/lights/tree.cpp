@@ -51,6 +51,8 @@ LightSet generate_tree(const Rsm& rsm, const Pdf*, const LightsParams& params, g
   }
   const PhaseTimer timer(report, "merge");
   LightSet tree{tree_lights(rsm, split), std::move(split.levels)};
+  if (!tree.lights.empty() && tree.lights.front().ndf == interop::NDF_NONE)
+    report.skipped("specular emission", "no texel has specular power");
   if (params.level < 0 || tree.lights.empty()) return tree;
   return level_of(tree, params.level);
 }

@@ -15,12 +15,13 @@ namespace {
 
 using interop::Light;
 
-// What is known of a node's texels. The lower group is weighted by the luminance of the specular power or,
-// where there is none, of all power.
+// What is known of a node's texels. Directions are weighted by the luminance of the specular power or, where
+// there is none, of all power.
 struct Statistics {
   DoubleMoments moments;  // powers and weight are sums, W
   Vec3 shading_normal, incident;
-  double shading_deficit = 0;                  // 1 - |shading_normal|^2
+  double shading_deficit = 0;  // 1 - |shading_normal|^2
+  // Of specular texels alone:
   double alpha2 = 1;                           // mean alpha^2
   double inverse_square = 0;                   // mean 1 / distance^2 to the source, 1/m^2
   std::array<double, 4> specular_by_ndf = {};  // luminance of the specular power, W
@@ -28,18 +29,18 @@ struct Statistics {
   double specular() const { return luminance(moments.power_specular); }
 };
 
-DoubleMoments to_double(const interop::Moments& m) {
+DoubleMoments double_moments(const interop::Moments& m) {
   DoubleMoments out;
-  out.power_diffuse = vsgl::to_double(m.power_diffuse);
-  out.power_specular = vsgl::to_double(m.power_specular);
+  out.power_diffuse = to_double(m.power_diffuse);
+  out.power_specular = to_double(m.power_specular);
   out.weight = static_cast<double>(m.weight);
-  out.position = vsgl::to_double(m.position);
+  out.position = to_double(m.position);
   out.spread = static_cast<double>(m.spread);
-  out.diffuse_mean = vsgl::to_double(m.diffuse_mean);
+  out.diffuse_mean = to_double(m.diffuse_mean);
   out.diffuse_deficit = static_cast<double>(m.diffuse_deficit);
-  out.specular_mean = vsgl::to_double(m.specular_mean);
+  out.specular_mean = to_double(m.specular_mean);
   out.specular_deficit = static_cast<double>(m.specular_deficit);
-  out.normal_mean = vsgl::to_double(m.normal_mean);
+  out.normal_mean = to_double(m.normal_mean);
   out.normal_deficit = static_cast<double>(m.normal_deficit);
   return out;
 }
@@ -47,16 +48,15 @@ DoubleMoments to_double(const interop::Moments& m) {
 Statistics of_texel(const RsmLayer& layer, std::size_t texel) {
   const interop::Surface& surface = layer.surface[texel];
   Statistics s;
-  s.moments = to_double(layer.pyramid[texel]);
-  s.shading_normal = vsgl::to_double(surface.shading_normal);
+  s.moments = double_moments(layer.pyramid[texel]);
+  s.shading_normal = to_double(surface.shading_normal);
   s.incident = direction_to_source(layer.light, s.moments.position);
+  if (s.specular() <= 0) return s;
+  s.alpha2 = static_cast<double>(surface.alpha) * static_cast<double>(surface.alpha);
+  s.specular_by_ndf[surface.ndf] = s.specular();
   if (layer.light.type != LightType::directional) {
     const Vec3 to_source = layer.light.position - s.moments.position;
     s.inverse_square = 1 / dot(to_source, to_source);
-  }
-  if (s.specular() > 0) {
-    s.alpha2 = static_cast<double>(surface.alpha) * static_cast<double>(surface.alpha);
-    s.specular_by_ndf[surface.ndf] = s.specular();
   }
   return s;
 }
@@ -73,14 +73,14 @@ void merge_lobes(const Children& children, Statistics& s) {
       [&](std::size_t k) { return children[k].shading_deficit; });
   s.shading_normal = normal.mean;
   s.shading_deficit = normal.spread;
-  s.alpha2 = 0;
   double total = 0;
   for (std::size_t k = 0; k < 4; ++k) total += weight(k);
+  for (std::size_t k = 0; k < 4; ++k) s.incident += weight(k) / total * children[k].incident;
+  if (!by_specular) return;
+  s.alpha2 = 0;
   for (std::size_t k = 0; k < 4; ++k) {
-    const double share = weight(k) / total;
-    s.incident += share * children[k].incident;
-    s.alpha2 += share * children[k].alpha2;
-    s.inverse_square += share * children[k].inverse_square;
+    s.alpha2 += weight(k) / total * children[k].alpha2;
+    s.inverse_square += weight(k) / total * children[k].inverse_square;
     for (std::size_t ndf = 0; ndf < 4; ++ndf) s.specular_by_ndf[ndf] += children[k].specular_by_ndf[ndf];
   }
 }
@@ -95,7 +95,7 @@ Statistics merge(const Children& children) {
   return s;
 }
 
-// A direction that cancels out is replaced by one of the texel's.
+// A mean direction; where directions cancel out, another.
 interop::vec3 unit(Vec3 mean, interop::vec3 otherwise) {
   const double l = length(mean);
   return l > 0 ? to_float(mean / l) : otherwise;
@@ -173,7 +173,7 @@ class Summary {
     light.normal_deficit = static_cast<float>(m.normal_deficit);
     light.shading_normal = unit(s.shading_normal, surface.shading_normal);
     light.incident =
-        unit(s.incident, to_float(direction_to_source(layer.light, vsgl::to_double(surface.position))));
+        unit(s.incident, to_float(direction_to_source(layer.light, to_double(surface.position))));
     light.alpha = 1;
     if (s.specular() > 0) set_specular(light, s);
     light.origin = surface.position;

@@ -15,7 +15,6 @@ using interop::Light;
 
 Lights tree_of(const Rsm& rsm, LightsParams params = {}) {
   Report report;
-  params.method = "tree";
   return generate_lights(rsm, nullptr, params, nullptr, report);
 }
 
@@ -279,6 +278,17 @@ TEST(Tree, OfNothing) {
   EXPECT_EQ(tree.levels, (std::vector<std::uint32_t>{0, 0}));
   EXPECT_TRUE(tree.lights.empty());
   EXPECT_TRUE(tree_of(rsm, {.level = 3}).lights.empty());
+}
+
+TEST(Tree, WithoutSpecularPowerNothingSpecularIsMerged) {
+  for (const bool specular : {false, true}) {
+    Report report;
+    const Lights tree = generate_lights(test::room_rsm(16, 1, specular), nullptr, {}, nullptr, report);
+    EXPECT_EQ(tree.has_specular(), specular);
+    const std::string skipped = report.to_json().at("skipped").dump();
+    EXPECT_EQ(skipped.find("specular emission") == std::string::npos, specular) << skipped;
+    EXPECT_NE(skipped.find("sampling"), std::string::npos);
+  }
 }
 
 TEST(Tree, SameBytesOnAnyNumberOfThreads) {
