@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "cluster/cells.h"
 #include "cluster/evaluate.h"
 
 namespace vsgl {
@@ -19,6 +20,8 @@ constexpr float kNarrowAlpha = 0.05F;
 // The error falls as the 2/3rd power of eps; eps at a relative error of 1 (0.003 at 0.02), and what the
 // estimate is multiplied by: measured, see docs/cut.md.
 constexpr double kThresholdScale = 1.06, kEstimateScale = 2.5;
+// Pixels between the samples may receive so many eps from a cluster that they are near to.
+constexpr float kNearShare = 8;
 // The mean is taken over the samples of at most so many tiles.
 constexpr int kMeanTiles = 256;
 
@@ -59,7 +62,6 @@ struct Pending {
 
 // Bit k: of lane k.
 using Mask = std::uint32_t;
-constexpr Mask kAll = (1U << kTileSamples) - 1;
 
 float seen(float value, Mask visible, std::size_t lane) {
   return visible >> lane & 1U ? value : 0;
@@ -72,10 +74,12 @@ bool has_power(const Cluster& c) {
 // One tile's cut in the making.
 class Choice {
  public:
-  Choice(const std::vector<Cluster>& clusters, const SampleReceivers& receivers, const TileSamples& samples,
-         const CutCriterion& criterion, const NodeVisibility& visibility)
+  Choice(const std::vector<Cluster>& clusters, const SampleReceivers& receivers,
+         const std::vector<Cell>& cells, const TileSamples& samples, const CutCriterion& criterion,
+         const NodeVisibility& visibility)
       : clusters_(clusters),
         receivers_(receivers),
+        cells_(cells),
         samples_(samples),
         criterion_(criterion),
         visibility_(visibility) {
@@ -133,10 +137,29 @@ class Choice {
       hidden |= node.value[k] < 0.25F * node.bound[k] && node.bound[k] * inverse_light_[k] > 4 * eps;
     }
     const bool leaf = clusters_[node.node].children == 0;
-    if (leaf || ((close || share <= eps) && !hidden))
+    if (leaf || ((close || share <= eps) && !hidden && !is_near(clusters_[node.node])))
       out_.entries.push_back({node.node, node.visible, share});
     else
       pending_.push_back(node);
+  }
+
+  // Whether the cluster may be bright on pixels between the samples: it is nearer to some of them than they
+  // are to their sample, and carries more than kNearShare eps of that sample's light there.
+  bool is_near(const Cluster& cluster) {
+    const float deviation = 1 / std::sqrt(cluster.inverse_variance);
+    return std::ranges::any_of(cells_, [&](const Cell& cell) {
+      const float x = cluster.position.x - cell.centre.x, y = cluster.position.y - cell.centre.y,
+                  z = cluster.position.z - cell.centre.z, reach = cell.radius + 2 * deviation;
+      if (x * x + y * y + z * z > reach * reach) return false;
+      ClusterLight light;
+      evaluate(cluster, cell.receivers, light);
+      out_.evaluations += kTileSamples;
+      const float limit = kNearShare * criterion_.threshold, inverse = inverse_light_[cell.sample];
+      bool bright = false;
+      for (std::size_t k = 0; k < kTileSamples; ++k)
+        bright |= light.value[k] * inverse > limit || light.bound[k] * inverse > limit;
+      return bright;
+    });
   }
 
   // Replaces the topmost pending node by its children.
@@ -187,6 +210,7 @@ class Choice {
 
   const std::vector<Cluster>& clusters_;
   const SampleReceivers& receivers_;
+  const std::vector<Cell>& cells_;
   const TileSamples& samples_;
   const CutCriterion& criterion_;
   const NodeVisibility& visibility_;
@@ -240,7 +264,9 @@ TileCut TreeTraversal::cut(const TileSamples& samples, const CutCriterion& crite
                            const NodeVisibility& visibility) const {
   if (samples.present == 0) return {};
   const SampleReceivers receivers = sample_receivers(gbuffer_, samples);
-  return Choice(clusters_, receivers, samples, criterion, visibility).run(start_nodes(criterion.start_level));
+  const std::vector<Cell> cells = cells_of(gbuffer_, samples);
+  return Choice(clusters_, receivers, cells, samples, criterion, visibility)
+      .run(start_nodes(criterion.start_level));
 }
 
 // Those of a level and the leaves above.

@@ -244,6 +244,45 @@ TEST(Traversal, AsksForTheVisibilityOfEachNodeOnce) {
   for (const auto& [node, times] : asked) EXPECT_EQ(times, 1) << node;
 }
 
+// A lamp right above a pixel between the samples, which hardly see it.
+TEST(Traversal, LooksAtPixelsNearAClusterBetweenTheSamples) {
+  Lights lights;
+  lights.method = "tree";
+  lights.levels = {0, 1, 5};
+  interop::Light node{};
+  node.position = {2, 0.05f, 2};
+  node.normal = node.shading_normal = node.incident = {0, -1, 0};
+  node.power_diffuse = {4, 4, 4};
+  node.variance = 1e-4f;
+  node.children = 1;
+  lights.lights = {node};
+  node.power_diffuse = {1, 1, 1};
+  node.children = 0;
+  node.variance = 1e-8f;
+  for (const float x : {1.985f, 1.995f, 2.005f, 2.015f}) {
+    node.position.x = x;
+    lights.lights.push_back(node);
+  }
+  GBuffer floor;
+  floor.width = floor.height = 16;
+  floor.camera = {0, 1, 0};
+  interop::Surface s{};
+  s.normal = s.shading_normal = {0, 1, 0};
+  s.diffuse = {1, 1, 1};
+  s.alpha = 1;
+  for (int pixel = 0; pixel < 256; ++pixel) {
+    s.position = {static_cast<float>(pixel % 16), 0, static_cast<float>(pixel / 16)};
+    floor.pixels.push_back(s);
+  }
+  const std::vector<Cluster> clusters = pack_clusters(lights);
+  const TreeTraversal traversal(floor, lights, clusters);
+  const TileSamples samples = tile_samples(floor, 0);
+  const CutCriterion criterion{.threshold = 0.01F, .floor = 0.05F, .start_level = 0};
+  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{1, 2, 3, 4}));
+  floor.pixels[2 * 16 + 2].id = interop::NO_INSTANCE;  // the others are a metre away
+  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{0}));
+}
+
 // A node whose mean lies below the receivers' horizon while half of its texels shine: a wall that reaches
 // from below the floor to above it.
 TEST(Traversal, DoesNotTrustANodeHiddenByItsHorizon) {
