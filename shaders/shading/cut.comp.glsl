@@ -8,7 +8,7 @@
 
 #include "interop/cut_shading.h"
 #include "kernels/fvpl.glsl"
-#include "shading/exact.glsl"
+#include "shading/distant.glsl"
 #include "shading/receive.glsl"
 
 layout(local_size_x_id = CUT_LANES_ID) in;
@@ -74,37 +74,6 @@ Cluster load_cluster(uint index) {
   c.masking_alpha2 = specular.w;
   c.ndf = EMISSION == NDF_ANY ? floatBitsToUint(texelFetch(clusters, first + 6).x) : EMISSION;
   return c;
-}
-
-// Specular BRDF times cosine, 1/sr, averaged over a footprint far away: exact, with the density of half vectors spread by that of the
-// directions. 1 / sharpness per axis becomes alpha^2 / 2 of 1 / (2 sharpness) in the plane of incidence and 1 / (2 sharpness cos^2) across
-// it; their geometric mean keeps the peak. `light`: local.
-float distant_specular(Receiver r, vec3 light, float inverse_sharpness) {
-  float alpha2 = r.lobe.alpha2;
-  float spread = min(0.5 * inverse_sharpness / r.lobe.cos_view, 1.0);
-  vec3 h = vec3(r.lobe.sin_view, 0.0, r.lobe.cos_view) + light;
-  float sin2 = h.x * h.x + h.y * h.y;
-  float cos2 = h.z * h.z;
-  float c = max(light.z, 0.0);
-  if (r.lobe.ndf != NDF_GGX)
-    return exact_specular(r.lobe.ndf, min(alpha2 + spread, 1.0), r.lobe.cos_view, r.slope_view, r.lobe.view_lambda, c, c, sin2, cos2);
-  // ggx_spread_d() of lib/fvpl.glsl.
-  float hh = max(sin2 + cos2, 1e-8);
-  float b = alpha2 + sqrt(2.0 * spread * (alpha2 + 2.0 * spread));
-  float q = max(sin2 + b * cos2, min(b, 1.0) * hh);
-  float masking = r.slope_view * c + ggx_slope_cosine(alpha2, c) * r.lobe.cos_view;
-  float inverse = 1.0 / (q * masking);
-  float inverse_q = inverse * masking;
-  float sharp = hh * inverse_q;
-  float density = sharp * sharp * (alpha2 + 2.0 * b * (b - alpha2) * cos2 * inverse_q);
-  return c > 0.0 ? 0.5 * INVERSE_PI * density * c * (inverse * q) : 0.0;
-}
-
-vec2 distant_reflection(Receiver r, vec3 u, float inverse_sharpness) {
-  float above = BUMPED == 0 || dot(r.geometric, u) > 0.0 ? 1.0 : 0.0;
-  vec2 reflection = vec2(above * INVERSE_PI * max(dot(r.normal, u), 0.0), 0.0);
-  if (RECEIVER != NDF_NONE) reflection.y = above * distant_specular(r, specular_local(r.lobe, u), inverse_sharpness);
-  return reflection;
 }
 
 struct Sums {
