@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <optional>
+#include <string>
 
 #include "cluster/cluster.h"
 
