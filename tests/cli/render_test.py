@@ -129,6 +129,9 @@ class RenderTest:
             self.tool("light-cut", "--gbuffer", at("gbuffer"), "--lights", at("lights"), "--error", str(error), "-o", at("cut"))
             stage("shade", "--gbuffer", at("gbuffer"), "--lights", at("lights"), "--rsm", at("rsm"), "-o", f"{into}.exr", "--error", str(error))
             shadows = ["--cut", at("cut")]
+            given = [self.bin / "shade", "--gbuffer", at("gbuffer"), "--lights", at("lights"), *shadows, "-o", at("image")]
+            run([*given, "--error", "0.1"], cwd=self.folder).expect_error(2, "E2005: --(cut|error) excludes --(cut|error)")
+            run([*given, "--ism", at("cut")], cwd=self.folder).expect_error(2, "E2005: --(cut|ism) excludes --(cut|ism)")
         stage("shade", "--gbuffer", at("gbuffer"), "--lights", at("lights"), *shadows, "--rsm", at("rsm"), "-o", at("image"))
 
     def require_same(self, one, other):
