@@ -20,7 +20,7 @@ from chain import Chain  # noqa: E402
 
 SCHEMAS = pathlib.Path(__file__).resolve().parents[2] / "configs" / "schema"
 ARTIFACTS = ["scene.json", "scene.glb", "gbuffer.exr", "rsm.exr", "pdf.exr", "lights.exr", "lights.json", "ism.exr",
-             "indirect.exr"]
+             "indirect.exr", "tree.exr", "tree.json"]
 
 
 def run_chain(bin_dir, folder, *common):
@@ -32,6 +32,8 @@ def run_chain(bin_dir, folder, *common):
     chain.vsgl_gen("--method", "fis-2016", "--count", "48")
     chain.ismap("--points", "1024", "--tile", "16")
     chain.shade()
+    chain.run("vsgl-gen", "--rsm", chain.path("rsm.exr"), "-o", chain.path("tree.exr"), "--info", chain.path("tree.json"),
+              "--dump", outputs=["tree.exr", "tree.json"])
     for row in chain.rows:
         require_valid(row["result"], "result.schema.json", row["stage"])
     return {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in ARTIFACTS}
@@ -74,8 +76,8 @@ def main():
             require(result.status == 1, f"{result}: expected status 1 for images that differ")
 
         def files_match_their_schemas():
-            for name, schema in (("scene.json", "scene.schema.json"), ("lights.json", "lights.schema.json")):
-                require_valid(json.loads((folder / "first" / name).read_text(encoding="utf-8")), schema, name)
+            for name, kind in (("scene.json", "scene"), ("lights.json", "lights"), ("tree.json", "lights")):
+                require_valid(json.loads((folder / "first" / name).read_text(encoding="utf-8")), f"{kind}.schema.json", name)
 
         def compare_agrees():
             compare(folder / "first" / "indirect.exr", folder / "again" / "indirect.exr").expect_success()

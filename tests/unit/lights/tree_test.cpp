@@ -95,6 +95,25 @@ TEST(Tree, EveryLitTexelIsInOneLeaf) {
   }
 }
 
+// Two groups of 300 and 724 texels that face the same way: the root's halves are these, but for the texel
+// that fills up quarters.
+TEST(Tree, SplitsFallBetweenWhatIsApart) {
+  Rsm rsm = only(room(), 1024);
+  for (std::uint32_t k = 0; k < 1024; ++k) {
+    interop::Moments& m = rsm.layers[0].pyramid[k];
+    m.position = {k < 300 ? 0.0f : 10.0f, static_cast<float>(k % 7), static_cast<float>(k % 11)};
+    m.normal_mean = {0, 1, 0};
+  }
+  const Lights tree = tree_of(rsm);
+  for (std::uint32_t half = 0; half < 2; ++half) {
+    std::vector<TexelId> texels = texels_below(tree, 1 + 2 * half);
+    collect(tree, 2 + 2 * half, texels);
+    const auto strangers = std::count_if(texels.begin(), texels.end(),
+                                         [&](const TexelId& id) { return (id.second < 300) != (half == 0); });
+    EXPECT_LE(strangers, 1) << half;
+  }
+}
+
 TEST(Tree, LevelsFollowOneAnother) {
   const Lights tree = tree_of(room());
   EXPECT_EQ(tree.levels[0], 0u);
