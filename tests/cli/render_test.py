@@ -229,7 +229,7 @@ class RenderTest:
             require(sorted(wanted) == sorted(known), f"schema of {stage}: {sorted(known)}, {tool} takes {sorted(wanted)}")
             for key, option in wanted.items():
                 if option.choices:
-                    require(option.choices == known[key]["enum"], f"{stage}/{key}: choices {option.choices}, schema {known[key]['enum']}")
+                    require(option.choices == [str(choice) for choice in known[key]["enum"]], f"{stage}/{key}: choices {option.choices}, schema {known[key]['enum']}")
                 if option.default:
                     require(str(known[key]["default"]) == option.default, f"{stage}/{key}: default {option.default}")
         committed = sorted((ROOT / "configs/pipelines").glob("*.json"))
