@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "interop/model.h"
 #include "math/interop_vec.h"
@@ -18,7 +19,7 @@ constexpr double kSmallestAgreement = 0.9;
 // Irradiance is nearly linear in the normal, so the pixel's own may differ by this much from the mean of its
 // samples'.
 constexpr double kLargestBend = 0.05;
-// Of the samples' luminances, the largest over the smallest, less 1.
+// Of irradiance around an interpolated pixel.
 constexpr double kLargestContrast = 0.25;
 
 std::uint8_t kind_of(const Surface& s) {
@@ -112,6 +113,22 @@ bool HalfResolution::fits(std::uint32_t pixel, const Stencil& stencil) const {
   return dot(bend, bend) <= kLargestBend * kLargestBend;
 }
 
+// Of the samples' luminances in the quads that surround the pixel and their neighbours (light may peak
+// between two samples, but not between four), the largest over the smallest, less 1.
+double HalfResolution::contrast_around(std::uint32_t pixel, std::span<const interop::vec3> irradiance) const {
+  const int x = static_cast<int>(pixel) % gbuffer_.width, y = static_cast<int>(pixel) / gbuffer_.width;
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (int row = std::max(y / 2 - 1, 0); row <= std::min((y + 1) / 2 + 1, rows_ - 1); ++row)
+    for (int column = std::max(x / 2 - 1, 0); column <= std::min((x + 1) / 2 + 1, columns_ - 1); ++column) {
+      const std::uint32_t sample = samples_[static_cast<std::size_t>(row * columns_ + column)];
+      if (sample == kNone) continue;
+      const double value = luminance(to_double(irradiance[sample]));
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  return most > least ? most / least - 1 : 0;
+}
+
 std::vector<std::uint8_t> HalfResolution::interpolate(std::span<interop::vec3> irradiance) const {
   std::vector<std::uint8_t> rejected(irradiance.size());
 #pragma omp parallel for schedule(static)
@@ -120,15 +137,10 @@ std::vector<std::uint8_t> HalfResolution::interpolate(std::span<interop::vec3> i
     Stencil stencil;
     surround(i, stencil);
     Vec3 sum;
-    double least = luminance(to_double(irradiance[stencil.sample[0]])), most = least;
-    for (int k = 0; k < stencil.count; ++k) {
-      const Vec3 value = to_double(irradiance[stencil.sample[k]]);
-      sum += stencil.weight[k] * value;
-      least = std::min(least, luminance(value));
-      most = std::max(most, luminance(value));
-    }
+    for (int k = 0; k < stencil.count; ++k)
+      sum += stencil.weight[k] * to_double(irradiance[stencil.sample[k]]);
     irradiance[i] = to_float(sum);
-    rejected[i] = most - least > kLargestContrast * least;
+    rejected[i] = contrast_around(i, irradiance) > kLargestContrast;
   }
   return rejected;
 }

@@ -43,6 +43,7 @@ class HalfResolution {
 
   std::uint32_t find_sample(std::span<const std::uint8_t> kinds, int column, int row) const;
   bool surround(std::uint32_t pixel, Stencil& stencil) const;
+  double contrast_around(std::uint32_t pixel, std::span<const interop::vec3> irradiance) const;
   bool fits(std::uint32_t pixel, const Stencil& stencil) const;
 
   const GBuffer& gbuffer_;
