@@ -304,7 +304,7 @@ TEST_F(ToolTest, DryRunPrintsTheResolvedConfigurationAndDoesNothing) {
   std::string keys;
   for (const auto& [key, value] : config.items()) keys += key + " ";
   EXPECT_EQ(keys,
-            "device threads seed json overwrite progress quiet verbose no_skip scene output count "
+            "device threads seed json overwrite if_changed progress quiet verbose no_skip scene output count "
             "kernel_scale method "
             "offset sizes dump ");
   EXPECT_EQ(config["count"], 12);
