@@ -242,7 +242,10 @@ std::vector<LitTexel> lit_texels(const Rsm& rsm) {
     for (std::uint32_t texel = 0; texel < texels; ++texel) {
       const interop::Moments& moments = rsm.layers[layer].pyramid[texel];
       if (!(moments.weight > 0)) continue;
-      const interop::vec3 &y = moments.position, &n = moments.normal_mean;
+      const interop::Surface& surface = rsm.layers[layer].surface[texel];
+      const interop::vec3 &y = moments.position, &n = surface.ndf == interop::NDF_NONE
+                                                          ? moments.normal_mean
+                                                          : surface.shading_normal;
       lit.push_back({.feature = {y.x, y.y, y.z, n.x, n.y, n.z}, .index = layer * texels + texel});
     }
   scale_normals(lit);
