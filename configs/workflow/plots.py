@@ -11,8 +11,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
 # Okabe and Ito's palette, told apart with any colour vision, and a marker each for print without colour.
-COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
-MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#7A5230"]
+MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 LABELS = {"relmse_rgb": "relMSE", "relmse_denoised": "relMSE, less the reference's noise", "relmse_trimmed": "relMSE, trimmed",
           "flip": "FLIP", "ssim": "SSIM", "luminance_bias": "mean over the reference's", "time_s": "time without files, s",
           "n": "lights, or samples a pixel"}
