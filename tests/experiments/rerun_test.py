@@ -53,7 +53,7 @@ class Rerun(unittest.TestCase):
 
     def test_another_count(self):
         self.run_edited(lambda experiment: experiment["variants"]["vpl"].update(counts=[16, 20]))
-        self.assertEqual(ran(self.folder, self.before), ["compare/cornell-glossy-vpl-20-s0", "ismap/cornell-glossy-vpl-20-s0",
+        self.assertEqual(ran(self.folder, self.before), ["compare/cornell-glossy-vpl-20-s0", "ismap/cornell-glossy-vpl-20-s0-ism",
                                                          "shade/cornell-glossy-vpl-20-s0", "vsgl-gen/cornell-glossy-vpl-20-s0"])
 
     def test_another_tool(self):
