@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -86,6 +87,10 @@ struct Lights {
   bool has_specular() const;
   bool is_tree() const { return !levels.empty(); }
 };
+// A level of a tree as a list that lacks no power: the level's nodes and the leaves above it, in their order.
+// `levels` as in Lights.
+std::vector<std::uint32_t> level_nodes(std::span<const interop::Light> lights,
+                                       std::span<const std::uint32_t> levels, std::size_t level);
 void write(const std::filesystem::path& path, const Lights& lights, const Provenance& provenance);
 Lights read_lights(const std::filesystem::path& path);
 

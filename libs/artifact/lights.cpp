@@ -96,6 +96,14 @@ bool Lights::has_specular() const {
   });
 }
 
+std::vector<std::uint32_t> level_nodes(std::span<const Light> lights, std::span<const std::uint32_t> levels,
+                                       std::size_t level) {
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t i = 0; i < levels[level + 1]; ++i)
+    if (i >= levels[level] || lights[i].children == 0) nodes.push_back(i);
+  return nodes;
+}
+
 void write(const std::filesystem::path& path, const Lights& lights, const Provenance& provenance) {
   ExrPart part = make_part("", "lights", provenance);
   part.attributes["anchor"] = to_array(lights.anchor);

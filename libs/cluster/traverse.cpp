@@ -238,7 +238,7 @@ TileSamples tile_samples(const GBuffer& gbuffer, int tile) {
 
 TreeTraversal::TreeTraversal(const GBuffer& gbuffer, const Lights& lights,
                              const std::vector<interop::Cluster>& clusters)
-    : gbuffer_(gbuffer), clusters_(clusters), levels_(lights.levels) {
+    : gbuffer_(gbuffer), clusters_(clusters), lights_(lights) {
   if (!lights.is_tree())
     throw Error(ErrorCode::invalid_data,
                 "lights: method: \"" + lights.method +
@@ -269,13 +269,8 @@ TileCut TreeTraversal::cut(const TileSamples& samples, const CutCriterion& crite
       .run(start_nodes(criterion.start_level));
 }
 
-// Those of a level and the leaves above.
 std::vector<std::uint32_t> TreeTraversal::start_nodes(std::uint32_t level) const {
-  const std::size_t last = std::min<std::size_t>(level, levels_.size() - 2);
-  std::vector<std::uint32_t> out;
-  for (std::uint32_t node = 0; node < levels_[last + 1]; ++node)
-    if (node >= levels_[last] || clusters_[node].children == 0) out.push_back(node);
-  return out;
+  return level_nodes(lights_.lights, lights_.levels, std::min<std::size_t>(level, lights_.levels.size() - 2));
 }
 
 double TreeTraversal::mean_light(std::span<const std::uint32_t> nodes) const {

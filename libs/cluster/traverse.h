@@ -69,7 +69,7 @@ class TreeTraversal {
 
   const GBuffer& gbuffer_;
   const std::vector<interop::Cluster>& clusters_;
-  std::vector<std::uint32_t> levels_;
+  const Lights& lights_;
   bool sharp_ = false;  // some specular lobe, lit or seen, is narrow
 };
 

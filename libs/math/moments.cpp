@@ -1,6 +1,19 @@
 #include "math/moments.h"
 
+#include "math/interop_vec.h"
+
 namespace vsgl {
+
+DoubleMoments to_double(const interop::Moments& m) {
+  const auto d = [](float v) { return static_cast<double>(v); };
+  return {to_double(m.flux),           to_double(m.power_diffuse),
+          to_double(m.power_specular), d(m.weight),
+          to_double(m.position),       d(m.spread),
+          to_double(m.diffuse_mean),   d(m.diffuse_deficit),
+          to_double(m.specular_mean),  d(m.specular_deficit),
+          to_double(m.normal_mean),    d(m.normal_deficit)};
+}
+
 DoubleMoments merge_moments(std::span<const DoubleMoments> taps, std::span<const double> shares) {
   DoubleMoments m;
   for (std::size_t k = 0; k < taps.size(); ++k) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 
+#include "interop/moments.h"
 #include "math/vec.h"
 
 // Merging of the moments of reflecting points in double precision: the twin of shaders/lib/moments.glsl.
@@ -47,6 +48,7 @@ struct DoubleMoments {
   Vec3 normal_mean;
   double normal_deficit = 0;
 };
+DoubleMoments to_double(const interop::Moments& moments);
 
 // Law of total variance over `taps`, weighted by `shares` and each statistic's own weight. Flux, powers and
 // weight are the taps' sums times their shares: means where these sum to 1, sums where each is 1. Statistics

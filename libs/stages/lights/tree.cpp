@@ -13,12 +13,9 @@ LightSet level_of(const LightSet& tree, int level) {
   if (level > deepest)
     throw Error(ErrorCode::out_of_range, "level: " + std::to_string(level) + " is beyond the tree's 0.." +
                                              std::to_string(deepest) + "; choose one of these");
-  const std::size_t first = tree.levels[static_cast<std::size_t>(level)],
-                    end = tree.levels[static_cast<std::size_t>(level) + 1];
   LightSet list;
-  for (std::size_t i = 0; i < end; ++i) {
-    if (i < first && tree.lights[i].children != 0) continue;
-    list.lights.push_back(tree.lights[i]);
+  for (const std::uint32_t node : level_nodes(tree.lights, tree.levels, static_cast<std::size_t>(level))) {
+    list.lights.push_back(tree.lights[node]);
     list.lights.back().children = 0;
   }
   return list;

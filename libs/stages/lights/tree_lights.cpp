@@ -29,26 +29,10 @@ struct Statistics {
   double specular() const { return luminance(moments.power_specular); }
 };
 
-DoubleMoments double_moments(const interop::Moments& m) {
-  DoubleMoments out;
-  out.power_diffuse = to_double(m.power_diffuse);
-  out.power_specular = to_double(m.power_specular);
-  out.weight = static_cast<double>(m.weight);
-  out.position = to_double(m.position);
-  out.spread = static_cast<double>(m.spread);
-  out.diffuse_mean = to_double(m.diffuse_mean);
-  out.diffuse_deficit = static_cast<double>(m.diffuse_deficit);
-  out.specular_mean = to_double(m.specular_mean);
-  out.specular_deficit = static_cast<double>(m.specular_deficit);
-  out.normal_mean = to_double(m.normal_mean);
-  out.normal_deficit = static_cast<double>(m.normal_deficit);
-  return out;
-}
-
 Statistics of_texel(const RsmLayer& layer, std::size_t texel) {
   const interop::Surface& surface = layer.surface[texel];
   Statistics s;
-  s.moments = double_moments(layer.pyramid[texel]);
+  s.moments = to_double(layer.pyramid[texel]);
   s.shading_normal = to_double(surface.shading_normal);
   s.incident = direction_to_source(layer.light, s.moments.position);
   if (s.specular() <= 0) return s;

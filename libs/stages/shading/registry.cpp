@@ -22,6 +22,14 @@ void require_light_count(const std::string& what, std::size_t found, const Light
                                            " lights; make them from these lights");
 }
 
+void require_image_size(const std::string& what, int width, int height, const GBuffer& gbuffer,
+                        const std::string& remedy) {
+  if (width != gbuffer.width || height != gbuffer.height)
+    throw Error(ErrorCode::wrong_size, what + ": of " + std::to_string(width) + "x" + std::to_string(height) +
+                                           " pixels for a G-buffer of " + std::to_string(gbuffer.width) +
+                                           "x" + std::to_string(gbuffer.height) + "; " + remedy);
+}
+
 void check_visibility(const ShadowMaps& maps, const GBuffer& gbuffer, const Lights& lights) {
   require_same_anchor("shadow maps", maps.anchor, gbuffer);
   require_light_count("shadow maps", maps.views.size(), lights);
@@ -30,21 +38,13 @@ void check_visibility(const ShadowMaps& maps, const GBuffer& gbuffer, const Ligh
 void check_visibility(const VisibilityBits& bits, const GBuffer& gbuffer, const Lights& lights) {
   require_same_anchor("visibility bits", bits.anchor, gbuffer);
   require_light_count("visibility bits", static_cast<std::size_t>(bits.lights), lights);
-  if (bits.width != gbuffer.width || bits.height != gbuffer.height)
-    throw Error(ErrorCode::wrong_size, "visibility bits: of " + std::to_string(bits.width) + "x" +
-                                           std::to_string(bits.height) + " pixels for a G-buffer of " +
-                                           std::to_string(gbuffer.width) + "x" +
-                                           std::to_string(gbuffer.height) + "; trace them for this G-buffer");
+  require_image_size("visibility bits", bits.width, bits.height, gbuffer, "trace them for this G-buffer");
 }
 
 void check_visibility(const Cut& cut, const GBuffer& gbuffer, const Lights& lights) {
   require_same_anchor("cut", cut.anchor, gbuffer);
   require_light_count("cut", static_cast<std::size_t>(cut.lights), lights);
-  if (cut.width != gbuffer.width || cut.height != gbuffer.height)
-    throw Error(ErrorCode::wrong_size, "cut: of " + std::to_string(cut.width) + "x" +
-                                           std::to_string(cut.height) + " pixels for a G-buffer of " +
-                                           std::to_string(gbuffer.width) + "x" +
-                                           std::to_string(gbuffer.height) + "; make it for this G-buffer");
+  require_image_size("cut", cut.width, cut.height, gbuffer, "make it for this G-buffer");
 }
 
 }  // namespace

@@ -16,13 +16,6 @@ constexpr std::uint32_t kNone = ~0U;
 
 }  // namespace
 
-std::vector<std::uint32_t> level_nodes(const Lights& tree, std::uint32_t level) {
-  std::vector<std::uint32_t> nodes;
-  for (std::uint32_t i = 0; i < tree.levels[level + 1]; ++i)
-    if (i >= tree.levels[level] || tree.lights[i].children == 0) nodes.push_back(i);
-  return nodes;
-}
-
 MapSight::MapSight(const GBuffer& gbuffer, const Lights& tree, std::span<const interop::vec3> normals,
                    const ShadowMaps& maps, std::span<const std::uint32_t> mapped)
     : Sight(gbuffer, tree, normals), maps_(maps), maps_of_(tree.lights.size(), {kNone, kNone}) {

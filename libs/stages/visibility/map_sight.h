@@ -6,10 +6,7 @@
 
 namespace vsgl::visibility {
 
-// The nodes of a tree's level and the leaves above it; every leaf is one of them or below one.
-std::vector<std::uint32_t> level_nodes(const Lights& tree, std::uint32_t level);
-
-// By shadow maps of the nodes that level_nodes() gave: deeper nodes use the map of their ancestor, shallower
+// By shadow maps of the nodes of level_nodes(): deeper nodes use the map of their ancestor, shallower
 // ones the mean of two descendants'.
 class MapSight final : public Sight {
  public:

@@ -21,7 +21,8 @@ std::uint32_t choose_level(const Lights& tree, int asked) {
   if (asked >= 0) return static_cast<std::uint32_t>(asked);
   std::uint32_t best = 0;
   const auto distance = [&](std::uint32_t level) {
-    return std::abs(std::log(static_cast<double>(level_nodes(tree, level).size()) / kMaps));
+    return std::abs(
+        std::log(static_cast<double>(level_nodes(tree.lights, tree.levels, level).size()) / kMaps));
   };
   for (std::uint32_t level = 1; level < levels; ++level)
     if (distance(level) < distance(best)) best = level;
@@ -34,7 +35,7 @@ Visibility map_cut(const VisibilityInputs& inputs, const VisibilityParams& param
                    Report& report) {
   const Lights& tree = inputs.lights;
   const std::uint32_t level = choose_level(tree, params.level);
-  const std::vector<std::uint32_t> mapped = level_nodes(tree, level);
+  const std::vector<std::uint32_t> mapped = level_nodes(tree.lights, tree.levels, level);
   report.count("level", level);
   Lights level_lights = tree;
   level_lights.levels.clear();

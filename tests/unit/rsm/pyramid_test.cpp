@@ -25,16 +25,6 @@ scene::Scene mixed_scene() {
   return scene;
 }
 
-DoubleMoments widen(const interop::Moments& m) {
-  const auto d = [](float v) { return static_cast<double>(v); };
-  return {to_double(m.flux),           to_double(m.power_diffuse),
-          to_double(m.power_specular), d(m.weight),
-          to_double(m.position),       d(m.spread),
-          to_double(m.diffuse_mean),   d(m.diffuse_deficit),
-          to_double(m.specular_mean),  d(m.specular_deficit),
-          to_double(m.normal_mean),    d(m.normal_deficit)};
-}
-
 void expect_close(Vec3 a, Vec3 b, double relative, const char* what) {
   EXPECT_LE(length(a - b), relative * length(b)) << what;
 }
@@ -44,9 +34,9 @@ TEST(Pyramid, TopEqualsADoubleMerge) {
   const std::vector<interop::Moments>& pyramid = rsm.layers[0].pyramid;
   ASSERT_EQ(pyramid.size(), pyramid_texels(128));
   std::vector<DoubleMoments> texels;
-  for (std::size_t i = 0; i < 128 * 128; ++i) texels.push_back(widen(pyramid[i]));
+  for (std::size_t i = 0; i < 128 * 128; ++i) texels.push_back(to_double(pyramid[i]));
   const std::vector<double> shares(texels.size(), 1.0 / static_cast<double>(texels.size()));
-  const DoubleMoments expected = merge_moments(texels, shares), top = widen(pyramid.back());
+  const DoubleMoments expected = merge_moments(texels, shares), top = to_double(pyramid.back());
   constexpr double kBound = 1e-5;
   expect_close(top.flux, expected.flux, kBound, "flux");
   expect_close(top.power_diffuse, expected.power_diffuse, kBound, "power_diffuse");
@@ -72,10 +62,11 @@ TEST(Pyramid, LevelsMergeTheirOwnBlocks) {
     std::vector<DoubleMoments> block;
     for (int j = 0; j < 2; ++j) {
       for (int i = 0; i < 2; ++i)
-        block.push_back(widen(pyramid[static_cast<std::size_t>((2 * y + j) * 32 + 2 * x + i)]));
+        block.push_back(to_double(pyramid[static_cast<std::size_t>((2 * y + j) * 32 + 2 * x + i)]));
     }
     const DoubleMoments expected = merge_moments(block, quarters);
-    const DoubleMoments merged = widen(pyramid[pyramid_offset(32, 1) + static_cast<std::size_t>(16 * y + x)]);
+    const DoubleMoments merged =
+        to_double(pyramid[pyramid_offset(32, 1) + static_cast<std::size_t>(16 * y + x)]);
     expect_close(merged.position, expected.position, 1e-6, "position");
     expect_close(merged.flux, expected.flux, 1e-6, "flux");
     EXPECT_NEAR(merged.spread, expected.spread, 1e-5 * expected.spread);

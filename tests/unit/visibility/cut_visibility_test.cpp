@@ -152,7 +152,7 @@ TEST(CutVisibility, MapsComeNear) {
 }
 
 TEST(CutVisibility, DeepAndShallowNodesFindTheirMaps) {
-  const auto nodes = visibility::level_nodes(tree(), 2);
+  const auto nodes = level_nodes(tree().lights, tree().levels, 2);
   ASSERT_EQ(nodes.size(), 16u);
   ShadowMaps maps;  // only the map of level 2's node 0 has an obstacle, everywhere
   maps.tile = 8;
