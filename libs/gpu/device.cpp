@@ -333,8 +333,14 @@ int Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags wanted) c
 
 std::shared_ptr<void> Device::pipeline(const PipelineKey& key,
                                        const std::function<std::shared_ptr<void>()>& build) {
-  const auto found = pipelines_.find(key);
-  return found != pipelines_.end() ? found->second : pipelines_.emplace(key, build()).first->second;
+  std::packaged_task<std::shared_ptr<void>()> task(build);
+  std::unique_lock lock(pipelines_lock_);
+  const auto [place, is_new] = pipelines_.try_emplace(key);
+  if (is_new) place->second = task.get_future().share();
+  const std::shared_future<std::shared_ptr<void>> pipeline = place->second;
+  lock.unlock();
+  if (is_new) task();
+  return pipeline.get();
 }
 
 void Device::run(const std::function<void(VkCommandBuffer)>& record) {

@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -54,7 +56,7 @@ class Device {
   void run(const std::function<void(VkCommandBuffer)>& record);
 
   // A pipeline that lives as long as the device: built by `build` when `key`, which describes it completely,
-  // is asked for first, and shared from then on.
+  // is asked for first, and shared from then on. Several threads may ask at once.
   using PipelineKey = std::vector<std::uint32_t>;
   std::shared_ptr<void> pipeline(const PipelineKey& key, const std::function<std::shared_ptr<void>()>& build);
   std::size_t pipelines_built() const { return pipelines_.size(); }
@@ -78,7 +80,8 @@ class Device {
   double timestamp_period_ = 0;
   std::uint32_t family_ = 0;
   DeviceInfo info_;
-  std::map<PipelineKey, std::shared_ptr<void>> pipelines_;
+  std::mutex pipelines_lock_;
+  std::map<PipelineKey, std::shared_future<std::shared_ptr<void>>> pipelines_;
 };
 
 // Memory barrier: what was written before is visible to everything after, the host included.

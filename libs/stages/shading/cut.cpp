@@ -24,7 +24,9 @@ struct Image {
 void shade_pixels(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds,
                   std::span<const std::uint8_t> shaded, CutPass& pass, bool skip, Image& image,
                   Report& report) {
-  for (const CutReceivers& receivers : sort_into_blocks(gbuffer, kinds, shaded, pass.narrow(), skip)) {
+  const std::vector<CutReceivers> lists = sort_into_blocks(gbuffer, kinds, shaded, pass.narrow(), skip);
+  for (const CutReceivers& receivers : lists) pass.prepare(receivers);
+  for (const CutReceivers& receivers : lists) {
     const std::vector<interop::CutSums> sums = pass.run(receivers, CutPass::kWords, report);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       image.diffuse[receivers.pixels[i]] = sums[i].diffuse;

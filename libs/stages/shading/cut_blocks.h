@@ -12,16 +12,20 @@
 
 namespace vsgl {
 
+// What pixels ask of the kernel.
+struct CutKernel {
+  std::uint32_t ndf = interop::NDF_NONE;  // of all of them; without `skip` NDF_ANY, though they are the same
+  bool wide = true;                       // blocks of CUT_BLOCK; else of the narrow width
+  bool bumped = false;                    // a shading normal differs from its geometric one
+};
+
 // Pixels that one pipeline serves, block after block.
-struct CutReceivers {
+struct CutReceivers : CutKernel {
   struct Block {
     std::uint32_t tile = 0;
     std::uint32_t first = 0, count = 0;  // of `pixels`; at most CUT_BLOCK
   };
-  std::uint32_t ndf = interop::NDF_NONE;  // of all of them; without `skip` NDF_ANY, though they are the same
-  bool wide = true;                       // blocks of CUT_BLOCK; else of the narrow width
-  bool bumped = false;                    // a shading normal differs from its geometric one
-  std::vector<std::uint32_t> pixels;      // of the image
+  std::vector<std::uint32_t> pixels;  // of the image
   std::vector<Block> blocks;
 };
 // The pixels whose `shaded` is 1, tile by tile; within a tile by squares of 8x8. Where no more than half of a

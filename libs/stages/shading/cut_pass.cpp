@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "gpu/compute.h"
 #include "interop/shading.h"
 #include "spirv/shading/cut.comp.glsl.h"  // after <cstdint>, which it needs
 
@@ -15,22 +14,6 @@ constexpr const char* kPhase = "shade";
 // Invocations that share a block: a vector of lavapipe's, a warp elsewhere.
 std::uint32_t lanes_of(const gpu::Device& device) {
   return std::clamp(device.info().subgroup_size, 8u, 32u);
-}
-
-gpu::ComputePipeline build_pipeline(const CutReceivers& receivers, std::uint32_t emission, bool masked,
-                                    gpu::Device& device) {
-  using gpu::Binding;
-  const std::uint32_t lanes = lanes_of(device);
-  return gpu::ComputePipeline(
-      device, cut_comp_spv,
-      {Binding::storage, Binding::storage, Binding::texel_rgba32f, Binding::texel_r32ui, Binding::storage},
-      sizeof(interop::CutPush),
-      {{interop::SHADING_RECEIVER_ID, receivers.ndf},
-       {interop::SHADING_EMISSION_ID, emission},
-       {interop::SHADING_BUMPED_ID, receivers.bumped},
-       {interop::SHADING_PIXELS_ID, receivers.wide ? interop::CUT_BLOCK / lanes : 1},
-       {interop::CUT_LANES_ID, lanes},
-       {interop::CUT_MASKED_ID, masked}});
 }
 
 std::vector<interop::Surface> gather_surfaces(const GBuffer& gbuffer, std::span<const std::uint32_t> pixels) {
@@ -72,9 +55,27 @@ std::size_t CutPass::leading(const CutReceivers& receivers, std::size_t first, s
   return count;
 }
 
+gpu::ComputePipeline CutPass::pipeline_of(const CutKernel& kernel) const {
+  using gpu::Binding;
+  const std::uint32_t lanes = lanes_of(device_);
+  return gpu::ComputePipeline(
+      device_, cut_comp_spv,
+      {Binding::storage, Binding::storage, Binding::texel_rgba32f, Binding::texel_r32ui, Binding::storage},
+      sizeof(interop::CutPush),
+      {{interop::SHADING_RECEIVER_ID, kernel.ndf},
+       {interop::SHADING_EMISSION_ID, skip_ ? clusters_.ndf : interop::NDF_ANY},
+       {interop::SHADING_BUMPED_ID, kernel.bumped},
+       {interop::SHADING_PIXELS_ID, kernel.wide ? interop::CUT_BLOCK / lanes : 1},
+       {interop::CUT_LANES_ID, lanes},
+       {interop::CUT_MASKED_ID, cut_.has_visibility()}});
+}
+
+void CutPass::prepare(const CutKernel& kernel) {
+  building_.push_back(std::async(std::launch::async, [this, kernel] { pipeline_of(kernel); }));
+}
+
 std::vector<interop::CutSums> CutPass::run(const CutReceivers& receivers, std::size_t words, Report& report) {
-  const std::uint32_t emission = skip_ ? clusters_.ndf : interop::NDF_ANY;
-  const gpu::ComputePipeline pipeline = build_pipeline(receivers, emission, cut_.has_visibility(), device_);
+  const gpu::ComputePipeline pipeline = pipeline_of(receivers);
   const interop::CutPush push{{static_cast<float>(gbuffer_.camera.x), static_cast<float>(gbuffer_.camera.y),
                                static_cast<float>(gbuffer_.camera.z)}};
   std::vector<interop::CutSums> sums;
