@@ -5,12 +5,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "interop/light.h"
-#include "interop/moments.h"
 #include "interop/sampling.h"
-#include "lib/lobe.glsl"
-#include "lib/moments.glsl"
 #include "lib/taps.glsl"
+#include "pyramid/light.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -25,6 +22,7 @@ layout(push_constant, scalar) uniform Push {
   uint layer;
   int top;               // level of one texel
   float variance_floor;  // m^2
+  uint lobe_filter;      // LOBE_*: how the lobes of the pyramid are encoded
 };
 
 Moments moments_of(int level, ivec2 texel) {
@@ -49,10 +47,17 @@ Moments filter_moments(Kernel kernel) {
   return moments_finish(sum);
 }
 
-// A lobe without power has neither axis nor sharpness.
-SgLobe decode(vec3 power, vec3 mean, float deficit) {
-  if (moments_luminance(power) <= 0.0) return SgLobe(vec3(0.0), 0.0);
-  return lobe_decode(LobeMoments(mean, deficit));
+// Without filtering the sampled texel's own lobes stand for all, those of the mean where it has none.
+void leave_lobes_unfiltered(uint texel, inout Moments moments) {
+  const Moments own = Pyramid(moments_at).at[texel];
+  if (own.diffuse_mean != vec3(0.0)) {
+    moments.diffuse_mean = own.diffuse_mean;
+    moments.diffuse_deficit = own.diffuse_deficit;
+  }
+  if (own.specular_mean != vec3(0.0)) {
+    moments.specular_mean = own.specular_mean;
+    moments.specular_deficit = own.specular_deficit;
+  }
 }
 
 void main() {
@@ -60,23 +65,10 @@ void main() {
   if (i >= count) return;
   const Kernel kernel = Kernels(kernels_at).at[i];
   if (kernel.layer != layer) return;
-  const Moments moments = filter_moments(kernel);
-  const SgLobe diffuse = decode(moments.power_diffuse, moments.diffuse_mean, moments.diffuse_deficit);
-  const SgLobe specular = decode(moments.power_specular, moments.specular_mean, moments.specular_deficit);
-  const float normal_length = length(moments.normal_mean);
-
   Light light = Lights(lights_at).at[i];
-  light.position = moments.position;
-  // [Tokuyoshi 2016, B.2]. Deviation: half of E|y - mean|^2, since the planar Gaussian of variance s has a second moment of 2 s.
-  light.variance = max(0.5 * moments.spread, variance_floor);
-  light.power_diffuse = kernel.power_scale * moments.power_diffuse;
-  light.diffuse_sharpness = diffuse.sharpness;
-  light.diffuse_axis = diffuse.axis;
-  light.power_specular = kernel.power_scale * moments.power_specular;
-  light.specular_sharpness = specular.sharpness;
-  light.specular_axis = specular.axis;
-  light.normal = normal_length > 0.0 ? moments.normal_mean / normal_length : vec3(0.0);
-  light.normal_deficit = moments.normal_deficit;
+  Moments moments = filter_moments(kernel);
+  if (lobe_filter == LOBE_NONE) leave_lobes_unfiltered(kernel.texel, moments);
+  set_moments(light, moments, kernel.power_scale, variance_floor, lobe_filter);
   light.level = kernel.level;
   light.texel = kernel.texel;
   light.layer = layer;
