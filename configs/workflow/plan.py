@@ -11,7 +11,8 @@ import shlex
 
 import jsonschema
 
-SAMPLED = ("vpl", "fis-2014", "fis-2016")  # methods of vsgl-gen that follow a density
+WITHOUT_DENSITY = ("tree", "texels", "two-vsgl")  # methods of vsgl-gen that follow none; the first is its default
+TIMED = ("rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade")  # that `repetitions` is for
 SCHEMA = pathlib.Path(__file__).resolve().parents[1] / "schema" / "experiment.schema.json"
 
 
@@ -21,15 +22,29 @@ class ExperimentError(Exception):
 
 def read_experiment(path):
     """The experiment with its defaults filled in. Throws ExperimentError."""
+    return complete(read_json(path), path)
+
+
+def read_json(path):
     try:
-        experiment = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=unique_keys(path))
+        return json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=unique_keys(path))
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         raise ExperimentError(f"{path}: {error}") from error
-    schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
-    error = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(schema).iter_errors(experiment))
+
+
+def judge(value, schema_path, path):
+    """By a schema, which is returned."""
+    schema = json.loads(schema_path.read_text(encoding="utf-8"))
+    error = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(schema).iter_errors(value))
     if error is not None:
         raise ExperimentError(f"{path}: {pointer(error.absolute_path)}: {error.message}")
-    for key in ("seeds", "plots"):
+    return schema
+
+
+def complete(experiment, path):
+    """Judges the experiment of that file and fills in its defaults. Throws ExperimentError."""
+    schema = judge(experiment, SCHEMA, path)
+    for key in ("seeds", "plots", "repetitions"):
         experiment.setdefault(key, schema["properties"][key]["default"])
     experiment["reference"].setdefault("seed", schema["properties"]["reference"]["properties"]["seed"]["default"])
     check_names(path, experiment)
@@ -104,16 +119,19 @@ class Plan:
             for frame in experiment.get("frames", [None]):
                 self.add_frame(scene, frame)
 
-    def stage(self, tool, label, inputs, options=None, arguments=(), origin=()):
-        """Returns its folder. inputs: name in the rule -> path, or list of paths, relative to the output folder."""
-        content = {"tool": tool, "options": options, "arguments": list(arguments), "inputs": inputs}
+    def stage(self, tool, label, inputs, options=None, arguments=(), origin=(), **further):
+        """Returns its folder. inputs: name in the rule -> path, or list of paths, relative to the output folder. further: what else
+        the rule needs to know."""
+        if self.experiment.get("repetitions", 1) > 1 and tool in TIMED:
+            further["repetitions"] = self.experiment["repetitions"]
+        content = {"tool": tool, "options": options, "arguments": list(arguments), "inputs": inputs, **further}
         name = f"{tool}/{'-'.join(str(part) for part in label if part is not None)}-{digest(content)}"
         folder = f"stages/{name}"
         used = dict(inputs, tool=f"tools/{tool}.sha256")
         if options is not None:
             used["parameters"] = f"{folder}/parameters.json"
         self.stages[name] = {"folder": folder, "inputs": used, "options": options, "arguments": shlex.join(arguments),
-                             "warm_up": tool in ("rsm-bake", "pdf-build")}
+                             "warm_up": tool in ("rsm-bake", "pdf-build"), **further}
         self.origins.setdefault(name, pointer(origin))
         return folder
 
@@ -122,7 +140,8 @@ class Plan:
         scene = self.experiment["scenes"][name]
         if "generate" in scene:
             arguments = [*scene["generate"], "--resolution", self.experiment["resolution"]]
-            return {"scene": self.stage("scene-gen", [name], {}, None, arguments) + "/scene.json"}
+            patch = {"patch": scene["patch"]} if "patch" in scene else {}
+            return {"scene": self.stage("scene-gen", [name], {}, None, arguments, **patch) + "/scene.json"}
         path = (self.folder / scene["scene"]).resolve()
         try:
             meshes = {mesh["file"] for mesh in json.loads(path.read_text(encoding="utf-8"))["meshes"]}
@@ -160,7 +179,7 @@ class Plan:
         stages = {"rsm-bake": bake}
         count = {} if n is None else {"count": n}
         inputs = {"rsm": rsm}
-        if method("vsgl_gen") in SAMPLED:
+        if (method("vsgl_gen") or WITHOUT_DENSITY[0]) not in WITHOUT_DENSITY:
             stages["pdf-build"] = stage("pdf-build", [method("pdf_build")], {"rsm": rsm, "gbuffer": gbuffer})
             inputs["pdf"] = f"{stages['pdf-build']}/pdf.exr"
         stages["vsgl-gen"] = stage("vsgl-gen", [method("vsgl_gen"), n, f"s{seed}"], inputs, ["--seed", str(seed)], **count)

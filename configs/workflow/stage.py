@@ -53,8 +53,10 @@ def main():
     parser.add_argument("--folder", required=True, type=pathlib.Path, help="of the stage")
     parser.add_argument("--threads", required=True, type=int, help="of the tool")
     parser.add_argument("--jobs", required=True, type=int, help="that run at once on the machine and so disturb the times")
+    parser.add_argument("--device", default="auto", help="of the tool")
     parser.add_argument("--accept", type=int, nargs="*", default=[0], help="exit statuses that are no failure")
     parser.add_argument("--warm-up", action="store_true", help="run the tool once before: its shaders are compiled then")
+    parser.add_argument("--repetitions", type=int, default=1, help="the run of median length counts (default 1)")
     parser.add_argument("command", nargs="+", help="the tool and its arguments")
     options = parser.parse_args()
     os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # threads that wait give their core away, to other jobs for instance
@@ -63,10 +65,11 @@ def main():
     lock = os.open(options.folder, os.O_RDONLY | os.O_DIRECTORY)
     fcntl.flock(lock, fcntl.LOCK_EX)
     remove_leftovers(options.folder)
-    command = [*options.command, "--threads", str(options.threads), "--json", "--overwrite", "--quiet"]
+    command = [*options.command, "--threads", str(options.threads), "--device", options.device, "--json", "--overwrite", "--quiet"]
     if options.warm_up:
         measure(command, lock)
-    done, measured = measure(command, lock)
+    runs = [measure(command, lock) for _ in range(options.repetitions)]
+    done, measured = sorted(runs, key=lambda run: run[1]["wall_s"])[len(runs) // 2]
     if done.returncode not in options.accept:
         sys.exit(f"stage: {' '.join(options.command)} ended with status {done.returncode}")
     process = {**measured, "threads": options.threads, "jobs": options.jobs, "host": platform.node(), "processor": processor()}

@@ -28,9 +28,11 @@ struct Table {
 };
 
 struct Figure {
-  std::string svg;  // the picture itself
+  enum class Format { svg, png };
+  std::string data;  // the picture itself
   std::string alt;
   std::string caption;  // empty: none
+  Format format = Format::svg;
 };
 
 // HTML shown verbatim in a frame of its own, in which nothing runs.

@@ -48,10 +48,12 @@ std::string html_of(const Text& text) {
 }
 
 std::string html_of(const Figure& figure) {
-  // As an image nothing in it runs or loads.
-  return "<figure class=\"plot\"><img alt=\"" + escape_html(figure.alt) +
-         "\" src=\"data:image/svg+xml;base64," + base64(std::as_bytes(std::span(figure.svg))) + "\">" +
-         caption_html("figcaption", figure.caption) + "</figure>\n";
+  // As an image nothing in it runs or loads. A plot follows the theme, a picture does not.
+  const bool plot = figure.format == Figure::Format::svg;
+  return "<figure class=\"" + std::string(plot ? "plot" : "plot photo") + "\"><img alt=\"" +
+         escape_html(figure.alt) + "\" src=\"data:image/" + (plot ? "svg+xml" : "png") + ";base64," +
+         base64(std::as_bytes(std::span(figure.data))) + "\">" + caption_html("figcaption", figure.caption) +
+         "</figure>\n";
 }
 
 std::string html_of(const Fragment& fragment) {

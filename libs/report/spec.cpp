@@ -128,7 +128,12 @@ Block Reader::table(const JsonValue& value) {
 }
 
 Block Reader::figure(const JsonValue& value) {
-  return Figure{read_text(file(value.at("svg"))), line(value.at("alt")), line_or(value, "caption", "")};
+  const auto svg = value.find("svg"), png = value.find("png");
+  if (svg.has_value() == png.has_value())
+    throw Error(ErrorCode::json_missing_key,
+                value.where() + ": a figure is given by exactly one of svg, png");
+  return Figure{read_text(file(svg ? *svg : *png)), line(value.at("alt")), line_or(value, "caption", ""),
+                svg ? Figure::Format::svg : Figure::Format::png};
 }
 
 Block Reader::fragment(const JsonValue& value) {

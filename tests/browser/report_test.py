@@ -3,6 +3,7 @@
 the screen must be those that the formulas give; the console must stay empty and nothing may be loaded."""
 
 import argparse
+import base64
 import json
 import math
 import pathlib
@@ -23,6 +24,7 @@ from plain_exr import write_exr
 
 SIZE = 8
 PATIENCE_S = 60
+PIXEL = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGNoAAAAggCBd81ytgAAAABJRU5ErkJggg=="  # grey
 HOSTILE = "</script><img src=x onerror=document.title='broken'>&amp;\"'"
 MAGENTA = [255, 0, 255]
 
@@ -262,6 +264,7 @@ class ReportTest:
         svg = ("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'><rect width='10' height='10' fill='#0a0'/>"
                "<script>parent.document.title='broken'</script></svg>")
         (self.folder / "plot.svg").write_text(svg)
+        (self.folder / "pixel.png").write_bytes(base64.b64decode(PIXEL))
         (self.folder / "fragment.html").write_text("<p id=here>fragment</p><script>top.document.title='broken'</script><img src='http://127.0.0.1:9/x.png'>")
         (self.folder / "table.csv").write_text(f'name,value\n"{HOSTILE.replace(chr(34), chr(34) * 2)}",10\nb,9\n')
         spec = {"$schema": "vsgltools/report/1", "title": HOSTILE, "summary": HOSTILE, "failures": [HOSTILE], "sections": [
@@ -269,6 +272,7 @@ class ReportTest:
                 {"type": "text", "text": HOSTILE},
                 {"type": "table", "caption": HOSTILE, "csv": "table.csv"},
                 {"type": "figure", "svg": "plot.svg", "alt": HOSTILE, "caption": HOSTILE},
+                {"type": "figure", "png": "pixel.png", "alt": HOSTILE},
                 {"type": "fragment", "html": "fragment.html", "title": HOSTILE},
                 {"type": "images", "reference": {"file": "b.exr", "label": HOSTILE}, "tests": [
                     {"file": "a.exr", "label": HOSTILE}, {"file": "b.exr", "label": "same"}]}]}]}
@@ -277,8 +281,8 @@ class ReportTest:
         page = Page(self.browser, self.folder / "spec.html")
         require(self.browser.title == HOSTILE, f"the title is {self.browser.title!r}")
         require(self.browser.find_element(By.TAG_NAME, "h1").text == HOSTILE, "the heading shows the text as it is")
-        require(page.script("return document.querySelectorAll('main img').length") == 1, "only the figure is an image")
-        require(page.script("return document.querySelector('.plot img').naturalWidth") > 0, "the figure is drawn")
+        require(page.script("return [...document.querySelectorAll('main img')].map(i => i.naturalWidth > 0)") == [True, True],
+                "only the figures are images, and both are drawn")
         require(page.script("const t = document.querySelector('table.sortable'); t.tHead.rows[0].cells[1].querySelector('button').click();"
                             "return t.tBodies[0].rows[0].cells[0].textContent") == "b", "9 sorts before 10")
         Select(page.find(".choose-a")).select_by_visible_text("same")

@@ -13,6 +13,7 @@ sys.path.insert(0, str(ROOT / "configs" / "workflow"))
 
 from plan import ExperimentError, Plan, read_experiment  # noqa: E402
 from plots import pareto_front  # noqa: E402
+from scene_patch import merged  # noqa: E402
 
 EXPERIMENT = {
     "$schema": "vsgltools/experiment/1",
@@ -199,6 +200,19 @@ class Sharing(Files):
         self.assertEqual(bake["inputs"]["scene"], str(folder / "hall.json"))
         self.assertEqual(bake["inputs"]["meshes"], [str(folder / "hall.glb")])
 
+    def test_patch_is_part_of_the_scene(self):
+        before = self.plan().stages
+        self.experiment["scenes"]["box"]["patch"] = {"materials": {"*": {"diffuse": 0.5}}}
+        after = self.plan().stages
+        self.assertEqual([stage["patch"] for name, stage in after.items() if name.startswith("scene-gen/")],
+                         [{"materials": {"*": {"diffuse": 0.5}}}])
+        self.assertFalse({name for name in before.keys() & after.keys() if "/box" in name})
+
+    def test_repetitions(self):
+        self.experiment["repetitions"] = 3
+        for name, stage in self.plan().stages.items():
+            self.assertEqual("repetitions" in stage, name.split("/")[0] not in ("scene-gen", "reference", "compare"), name)
+
     def test_frames(self):
         self.experiment["frames"] = [0, 7]
         plan = self.plan()
@@ -216,6 +230,12 @@ class Sharing(Files):
         self.assertEqual(words[1].count(".exr"), 1, "the first seed is not part of the mean")
         self.assertEqual(words[3].count(".exr"), 1)
         self.assertEqual(set(stage["inputs"]["steps"]), {path for word in words[1::2] for path in word.split("=")[1].split(",")})
+
+
+class Patches(unittest.TestCase):
+    def test_merge_patch(self):
+        value = {"a": {"b": 1, "c": 2}, "d": [1]}
+        self.assertEqual(merged(value, {"a": {"b": None, "e": {"f": 3}}, "d": [2, 3]}), {"a": {"c": 2, "e": {"f": 3}}, "d": [2, 3]})
 
 
 class Figures(unittest.TestCase):
