@@ -17,7 +17,7 @@ PREFIX ?= /usr/local
 PYTHON ?= /usr/bin/python3
 SOURCES = $(shell git ls-files 'apps/*.cpp' 'libs/*.cpp' 'libs/*.h' 'tests/*.cpp' 'tests/*.h' 'shaders/interop/*.h')
 
-.PHONY: help setup setup-lint configure build demo test experiment bench asan tidy format format-check install golden-update clean
+.PHONY: help setup setup-lint configure build demo test experiment bench flicker asan tidy format format-check install golden-update clean
 
 help: ## show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -51,6 +51,10 @@ experiment: configure ## run configs/experiments/NAME.json into out/experiments/
 
 bench: build ## time the shading kernel against native code, the demo chain stage by stage, and error against time of a small experiment
 	@$(PYTHON) configs/workflow/bench.py --bin $(BUILD)/bin --output out/bench
+
+flicker: configure ## render and trace 64 frames of a moving light into out/flicker: how the methods flicker, where they pop
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target tools
+	@$(PYTHON) configs/workflow/flicker.py --bin $(BUILD)/bin --output out/flicker
 
 asan: ## the test run under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory build PRESET=asan

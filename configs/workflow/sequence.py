@@ -1,0 +1,104 @@
+"""Sequences of images of an animated scene, frame by frame in one folder: rendered, traced, measured by compare and loaded as
+arrays."""
+
+import json
+import pathlib
+import subprocess
+import tempfile
+
+import PIL.Image
+import numpy
+
+from chain import Chain, StageFailed
+
+LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722])  # of linear Rec.709
+
+
+class Sequence:
+    """The frames 0 .. frames - 1 of a scene, by several methods; that called LABEL has the files LABEL.0000.exr and so on. What is
+    there already and unchanged is not made again."""
+
+    def __init__(self, bin_dir, folder, frames, resolution, common=("--if-changed",)):
+        self.chain = Chain(bin_dir, folder, common)
+        self.frames = frames
+        self.resolution = resolution
+
+    def files(self, label):
+        """Name of a method's frames, for compare and render."""
+        return self.chain.path(f"{label}.%04d.exr")
+
+    def file(self, label, frame):
+        return self.chain.path(f"{label}.{frame:04d}.exr")
+
+    def names(self, label):
+        return [f"{label}.{frame:04d}.exr" for frame in range(self.frames)]
+
+    def scene_gen(self, *arguments):
+        """The scene; `arguments` must say what moves."""
+        self.chain.scene_gen(*arguments, "--frames", str(self.frames))
+
+    def render(self, label, pipeline, *arguments):
+        """Renders all frames by a pipeline, a dictionary of the stages' options; returns the tool's result."""
+        path = pathlib.Path(self.chain.path(f"{label}.pipeline.json"))
+        text = json.dumps({"$schema": "vsgltools/pipeline/1", **pipeline}, indent=2) + "\n"
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+        return self.chain.run("render", self.chain.path("scene.json"), "--pipeline", str(path), "--frames", f"0:{self.frames - 1}",
+                              "--resolution", self.resolution, "-o", self.files(label), *arguments, outputs=self.names(label))
+
+    def reference(self, label, samples, seed):
+        """Traces all frames. Seeds differ between frames: their noise must not repeat, or else it would hide."""
+        for frame, name in enumerate(self.names(label)):
+            self.chain.run("reference", self.chain.path("scene.json"), "--frame", str(frame), "--resolution", self.resolution, "--samples",
+                           str(samples), "--seed", str(seed + frame), "-o", self.chain.path(name), outputs=[name])
+
+    def compare(self, name, *arguments):
+        """Runs compare; returns what it writes. Images that differ are no failure."""
+        path = self.chain.path(f"{name}.json")
+        command = [str(self.chain.bin / "compare"), *arguments, "-o", path, "--overwrite", "--quiet"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode not in (0, 1):
+            raise StageFailed(f"{' '.join(command)}\n{done.stderr}")
+        return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+
+    def flicker(self, test, truth):
+        """The figures of a sequence against another (docs/compare.md)."""
+        return self.compare(f"{test}-{truth}.flicker", self.files(test), self.files(truth), "--frames", f"0:{self.frames - 1}")
+
+    def seams(self, test, truth):
+        """Of each frame: steps at the borders of 16 x 16 tiles, and how far they exceed those beside them."""
+        found = []
+        for frame in range(self.frames):
+            comparison = self.compare(f"{test}-{truth}.seams", self.file(test, frame), self.file(truth, frame), "--channels", "indirect",
+                                      "--seams", "16")
+            found.append(next(layer["seams"] for layer in comparison["layers"] if layer["layer"] == "indirect"))
+        return found
+
+    def load(self, label):
+        """The layer `indirect` of all frames: [frame, row, column, channel], float64."""
+        command = ["oiiotool", "--nosoftwareattrib"]
+        for frame in range(self.frames):
+            for channel in "RGB":
+                command += [self.file(label, frame), "--ch", f"indirect.{channel}"]
+        with tempfile.TemporaryDirectory() as folder:
+            target = pathlib.Path(folder) / "frames.tif"  # of one channel, one picture below the other
+            done = subprocess.run([*command, "--mosaic", f"1x{3 * self.frames}", "-d", "float", "-o", target], capture_output=True,
+                                  text=True, check=False)
+            if done.returncode != 0:
+                raise StageFailed(f"{self.files(label)}: {done.stderr}")
+            with PIL.Image.open(target) as picture:
+                rows = numpy.asarray(picture, dtype=numpy.float64)
+        return rows.reshape(self.frames, 3, -1, rows.shape[1]).transpose(0, 2, 3, 1)
+
+
+def luminance(images):
+    return images @ LUMINANCE
+
+
+def relative_steps(test, truth):
+    """How much the error of each pixel changes from a frame to the next, relative to its luminance as compare's `pops` counts it:
+    [frame - 1, row, column]. Both as load() gives them."""
+    reference = luminance(truth)
+    seen = reference.max(axis=0) > 0
+    floor = 0.05 * reference[:, seen].mean()
+    return numpy.diff(luminance(test) - reference, axis=0) / (reference[1:] + floor)
