@@ -17,7 +17,7 @@ PREFIX ?= /usr/local
 PYTHON ?= /usr/bin/python3
 SOURCES = $(shell git ls-files 'apps/*.cpp' 'libs/*.cpp' 'libs/*.h' 'tests/*.cpp' 'tests/*.h' 'shaders/interop/*.h')
 
-.PHONY: help setup setup-lint configure build demo test experiment bench flicker asan tidy format format-check install golden-update clean
+.PHONY: help setup setup-lint configure build demo test experiment paper bench flicker asan tidy format format-check install golden-update clean
 
 help: ## show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -48,6 +48,10 @@ experiment: configure ## run configs/experiments/NAME.json into out/experiments/
 	@cmake --build --preset $(PRESET) --target tools
 	@$(PYTHON) configs/workflow/experiment.py configs/experiments/$(NAME).json --bin $(BUILD)/bin \
 	  --output out/experiments/$(NAME) --jobs $(EXPERIMENT_JOBS) --snakemake="$(ARGS)"
+
+paper: configure ## reproduce the papers' figures and tables into out/paper (ARGS=--quick; ARGS="--only fig-2016-1")
+	@cmake --build --preset $(PRESET) -j $(shell nproc) --target tools
+	@$(PYTHON) configs/workflow/paper.py --bin $(BUILD)/bin --output out/paper $(ARGS)
 
 bench: build ## time the shading kernel against native code, the demo chain stage by stage, and error against time of a small experiment
 	@$(PYTHON) configs/workflow/bench.py --bin $(BUILD)/bin --output out/bench

@@ -20,7 +20,7 @@ from stage import remove_leftovers
 WORKFLOW = pathlib.Path(__file__).resolve().parent
 PYTHON = "/usr/bin/python3"  # the one whose packages Debian's packages are
 SNAKEMAKE = "/usr/bin/snakemake"
-TOOLS = ["scene-gen", "rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "reference", "compare", "report"]
+TOOLS = ["scene-gen", "rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "render", "reference", "compare", "report"]
 # What else a tool must be given before it looks at its options.
 DRY_RUN = {
     "rsm-bake": ["scene.json", "--gbuffer", "gbuffer.exr", "--rsm", "rsm.exr"],
@@ -62,18 +62,32 @@ def check_options(plan, path, bin_dir):
     """Lets each tool judge its options before hours are spent: a dry run, which opens no file, for each set of options."""
     done = set()
     for name, stage in plan.stages.items():
-        tool = name.split("/")[0]
-        parameters = json.dumps(stage["options"])
-        if stage["options"] is None or (tool, parameters) in done:
-            continue
-        done.add((tool, parameters))
-        with tempfile.NamedTemporaryFile("w", suffix=".json", encoding="utf-8") as file:
-            file.write(parameters)
-            file.flush()
-            command = [bin_dir / tool, *DRY_RUN[tool], "--config", file.name, "--dry-run"]
-            answer = subprocess.run(command, capture_output=True, text=True, check=False)
-        if answer.returncode != 0:
-            raise ExperimentError(f"{path}: {plan.origins[name]}: {answer.stderr.strip()}")
+        for tool, options in tool_options(name.split("/")[0], stage["options"]):
+            parameters = json.dumps(options)
+            if (tool, parameters) in done:
+                continue
+            done.add((tool, parameters))
+            dry_run(tool, parameters, f"{path}: {plan.origins[name]}", bin_dir)
+
+
+def tool_options(tool, options):
+    """(tool, options) whose options the stage has: of a pipeline those of each of its tools."""
+    if options is None:
+        return []
+    if tool != "render":
+        return [(tool, options)]
+    return [(key.replace("_", "-"), part) for key, part in options.items() if isinstance(part, dict)]
+
+
+def dry_run(tool, parameters, place, bin_dir):
+    """Throws ExperimentError where the tool refuses the options, JSON."""
+    with tempfile.NamedTemporaryFile("w", suffix=".json", encoding="utf-8") as file:
+        file.write(parameters)
+        file.flush()
+        command = [bin_dir / tool, *DRY_RUN[tool], "--config", file.name, "--dry-run"]
+        answer = subprocess.run(command, capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
+        raise ExperimentError(f"{place}: {answer.stderr.strip()}")
 
 
 def remove_strangers(plan, folder, keep_temporary):
@@ -100,14 +114,15 @@ def lock_folder(folder):
     return lock
 
 
-def run_snakemake(folder, bin_dir, threads, jobs, further, lock):
+def run_snakemake(snakefile, folder, bin_dir, threads, jobs, further, lock, device="auto"):
     """Its exit status. Its own locks are off: they would outlive a killed run. Folders are named after options, so that the times
     of files are all that a rerun needs to look at."""
-    command = [SNAKEMAKE, "--snakefile", WORKFLOW / "Snakefile", "--directory", folder, "--scheduler", "greedy", "--nolock",
+    command = [SNAKEMAKE, "--snakefile", WORKFLOW / snakefile, "--directory", folder, "--scheduler", "greedy", "--nolock",
                "--rerun-incomplete", "--rerun-triggers", "mtime", "--drop-metadata", "--quiet", "all"]
     if not {"--profile", "--cluster", "--cores"} & set(further):
         command += ["--cores", str(jobs * threads)]
-    settings = [f"bin={bin_dir}", f"workflow={WORKFLOW}", f"threads={threads}", f"jobs={jobs}", f"python={PYTHON}"]
+    settings = [f"bin={bin_dir}", f"workflow={WORKFLOW}", f"threads={threads}", f"jobs={jobs}", f"python={PYTHON}",
+                f"device={device}"]
     return subprocess.run([*command, *further, "--config", *settings], check=False, pass_fds=[lock]).returncode
 
 
@@ -130,7 +145,7 @@ def main():
     lock = lock_folder(folder)
     write_inputs(plan, folder, bin_dir)
     threads = options.threads or max(1, len(os.sched_getaffinity(0)) // options.jobs)
-    status = run_snakemake(folder, bin_dir, threads, options.jobs, options.snakemake, lock)
+    status = run_snakemake("Snakefile", folder, bin_dir, threads, options.jobs, options.snakemake, lock)
     if status != 0 or {"-n", "--dry-run", "--dryrun"} & set(options.snakemake):
         return status
     remove_strangers(plan, folder, "--notemp" in options.snakemake)

@@ -56,9 +56,9 @@ def outputs(tool, *names):
     return [f"stages/{tool}/{{key}}/{name}" for name in (*names, "report.json")]
 
 
-def run(tool, accept="0"):
-    """Runs the tool in its folder; see stage.py."""
-    return (f"{PYTHON} {WORKFLOW}/stage.py --folder stages/{tool}/{{wildcards.key}} --threads {{threads}} --jobs {config['jobs']} "
+def run(tool, accept="0", stages=None):
+    """Runs the tool in its folder, which is among those of the tool's name or of another; see stage.py."""
+    return (f"{PYTHON} {WORKFLOW}/stage.py --folder stages/{stages or tool}/{{wildcards.key}} --threads {{threads}} --jobs {config['jobs']} "
             f"--device {DEVICE} --accept {accept} {{params.timing}} -- {BIN}/{tool} ")
 
 

@@ -1,0 +1,194 @@
+"""The papers' figures: reading configs/paper/*.json, and the stages that must run for them. A figure is an experiment, or sequences of
+frames, or both, and says what is measured, drawn and told of them. docs/paper.md describes the files."""
+
+import copy
+import pathlib
+
+from paper_values import BadExpression, names, placeholders
+from plan import ExperimentError, Plan, complete, judge, pointer, read_json, stage_of
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "configs" / "paper"
+SCHEMA = ROOT / "configs" / "schema" / "paper.schema.json"
+SIZES = "sizes.json"
+
+
+def figure_paths(folder):
+    """Id -> file, in the order of the papers: their years, figures before tables."""
+    found = {path.stem: path for path in folder.glob("*.json") if path.name != SIZES}
+    def order(name):
+        kind, paper, number = name.split("-")
+        return paper, kind, int(number)
+    return {name: found[name] for name in sorted(found, key=order)}
+
+
+def read_sizes(folder):
+    """Size -> parameter -> value, each size with the values of "default" that it does not change."""
+    sizes = read_json(folder / SIZES)
+    return {name: sizes["default"] | values for name, values in sizes.items()}
+
+
+def sized(value, size, path):
+    """The value with its "$parameters" replaced; words of a command line stay words."""
+    if isinstance(value, dict):
+        return {key: [str(sized(word, size, path)) for word in part] if key == "generate" else sized(part, size, path)
+                for key, part in value.items()}
+    if isinstance(value, list):
+        return [sized(part, size, path) for part in value]
+    if isinstance(value, str) and value.startswith("$") and value[1:]:
+        if value[1:] not in size:
+            raise ExperimentError(f"{path}: \"{value}\" is no parameter; {SIZES} has {', '.join(size)}")
+        return size[value[1:]]
+    return value
+
+
+def read_figure(path, size):
+    """A figure for a size (parameter -> value), its experiment with all defaults. Throws ExperimentError."""
+    raw = read_json(path)
+    judge(raw, SCHEMA, path)
+    figure = {key: sized(value, size, path) if key in ("experiment", "sequences") else value for key, value in raw.items()}
+    if "experiment" in figure:
+        figure["experiment"] = complete({"$schema": "vsgltools/experiment/1", **figure["experiment"]}, path)
+    check_names(figure, path)
+    return figure
+
+
+def texts(figure):
+    """(place, text) of all that may show measured figures."""
+    found = [(["text", part], text) for part, text in figure["text"].items()]
+    for i, picture in enumerate(figure.get("pictures", [])):
+        found.append((["pictures", i, "caption"], picture["caption"]))
+        for r, row in enumerate(picture["rows"]):
+            found += [(["pictures", i, "rows", r, "panels", p, "title"], panel["title"]) for p, panel in enumerate(row["panels"])]
+    return found
+
+
+def check_names(figure, path):
+    """That whatever a text or an expression uses is measured; an expression may use what stands before it."""
+    known = []
+    def require(used, place):
+        for name in used:
+            if name not in known:
+                raise ExperimentError(f"{path}: {pointer(place)}: \"{name}\" is not measured; there are {', '.join(known) or 'none'}")
+
+    try:
+        for name, measure in figure["measures"].items():
+            require(names(measure["expression"]) if "expression" in measure else [], ["measures", name])
+            known.append(name)
+        for i, claim in enumerate(figure.get("claims", [])):
+            require(names(claim["holds"]), ["claims", i, "holds"])
+        for place, text in texts(figure):
+            require(placeholders(text), place)
+    except BadExpression as error:
+        raise ExperimentError(f"{path}: {error}") from error
+
+
+class FigureExperiment(Plan):
+    """The figure's experiment; its options stand below /experiment."""
+
+    def stage(self, tool, label, inputs, options=None, arguments=(), origin=(), **further):
+        return super().stage(tool, label, inputs, options, arguments, ("experiment", *origin), **further)
+
+
+class Sequences(Plan):
+    """Frames of an animated scene, by `render` with several pipelines, each sequence compared with path tracing. Its options stand
+    below /sequences."""
+
+    def __init__(self, sequences, path):
+        self.sequences = sequences
+        frames = sequences["frames"]
+        experiment = {key: sequences[key] for key in ("resolution", "rsm_bake", "reference") if key in sequences}
+        experiment["reference"] = {"seed": 1000000} | experiment["reference"]
+        super().__init__(experiment | {"scenes": {"sequence": sequences["scene"]}, "frames": list(range(frames)), "variants": {}}, path)
+        truth = self.link([self.truth(frame) for frame in range(frames)])
+        self.sequence_rows = [self.add_sequence(name, pipeline, truth) for name, pipeline in sequences["pipelines"].items()]
+
+    def stage(self, tool, label, inputs, options=None, arguments=(), origin=(), **further):
+        return super().stage(tool, label, inputs, options, arguments, ("sequences", *origin), **further)
+
+    def truth(self, frame):
+        """Each frame has a seed of its own: noise that repeats would not be told from light that stays."""
+        options = {key: value for key, value in self.experiment["reference"].items() if key != "seed"}
+        return self.trace("sequence", frame, options, self.experiment["reference"]["seed"] + frame, ("reference",))
+
+    def link(self, files):
+        """Folder in which images that several stages made are called as the frames of a sequence."""
+        folder = self.stage("sequence", ["reference"], {"frames": files})
+        del self.stages[stage_of(f"{folder}/frames")]["inputs"]["tool"]
+        return f"{folder}/frames"
+
+    def add_sequence(self, name, pipeline, truth):
+        own = {"rsm_bake": self.sequences.get("rsm_bake", {}) | pipeline.get("rsm_bake", {})}
+        options = {"$schema": "vsgltools/pipeline/1", **pipeline, **own}
+        frames = f"0:{self.sequences['frames'] - 1}"
+        arguments = ["--frames", frames, "--resolution", self.sequences["resolution"]]
+        folder = self.stage("render", [name], self.scene("sequence"), options, arguments, ("pipelines", name))
+        images = f"{folder}/frames"
+        flicker = self.stage("flicker", [name], {"test": images, "reference": truth}, None, ["--frames", frames])
+        self.stages[stage_of(f"{flicker}/comparison.json")]["inputs"]["tool"] = "tools/compare.sha256"
+        return {"sequence": name, "frames": self.sequences["frames"], "images": images, "reference": truth, "stage": folder,
+                "comparison": f"{flicker}/comparison.json"}
+
+
+class Figure:
+    """A figure and its stages."""
+
+    def __init__(self, name, path, size):
+        self.name, self.path = name, path
+        self.content = read_figure(path, size)
+        self.plans = []
+        self.rows, self.sequences = [], []
+        if "experiment" in self.content:
+            self.plans.append(FigureExperiment(self.content["experiment"], path))
+            self.rows = self.plans[-1].rows
+        if "sequences" in self.content:
+            self.plans.append(Sequences(self.content["sequences"], path))
+            self.sequences = self.plans[-1].sequence_rows
+        self.code = {method: self.sources(method, patterns) for method, patterns in self.content.get("code", {}).items()}
+
+    def sources(self, method, patterns):
+        """The source files of a method. A pattern without a file is an error: the code has moved."""
+        found = []
+        for i, pattern in enumerate(patterns):
+            matches = sorted(str(path) for path in ROOT.glob(pattern))
+            if not matches:
+                raise ExperimentError(f"{self.path}: {pointer(['code', method, i])}: no file {pattern}")
+            found += matches
+        return found
+
+    def files(self):
+        """All that its tables and pictures are made from."""
+        found = {row[key] for row in self.rows for key in ("image", "reference", "comparison")}
+        for row in self.rows:
+            for tool, folder in row["stages"].items():
+                found.add(f"{folder}/report.json")
+                found |= {f"{folder}/{output}" for output in {"vsgl-gen": ["lights.exr"], "pdf-build": ["pdf.exr"]}.get(tool, [])}
+        found |= {row[key] for row in self.sequences for key in ("images", "reference", "comparison")}
+        found |= {f"{row['stage']}/report.json" for row in self.sequences}
+        return sorted(found | {path for paths in self.code.values() for path in paths})
+
+    def to_json(self):
+        return {"name": self.name, "content": self.content, "rows": self.rows, "sequences": self.sequences, "code": self.code}
+
+
+class PaperPlan:
+    """All figures' stages together: those that figures share run once."""
+
+    def __init__(self, figures):
+        self.figures = figures
+        self.stages = {}
+        for figure in figures:
+            for plan in figure.plans:
+                for name, stage in plan.stages.items():
+                    self.add(name, copy.deepcopy(stage))
+
+    def add(self, name, stage):
+        known = self.stages.setdefault(name, stage)
+        known["warm_up"] = known["warm_up"] or stage["warm_up"]
+        if stage.get("checkpoint"):
+            known["checkpoint"] = True
+        if "after" in stage["inputs"]:
+            known["inputs"].setdefault("after", stage["inputs"]["after"])
+
+    def to_json(self):
+        return {"stages": self.stages, "figures": {figure.name: figure.files() for figure in self.figures}}
