@@ -141,6 +141,7 @@ struct Commands::Impl {
   // Consecutive dispatches of one label, which are submitted and timed together.
   struct Segment {
     std::string label;
+    int dispatches = 0;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkQueryPool timestamps = VK_NULL_HANDLE;  // two: begin and end; none where the device's are of no use
   };
@@ -170,6 +171,7 @@ VkCommandBuffer Commands::Impl::record(const std::string& label) {
     if (!segments.empty()) end(segments.back());
     begin(segments.emplace_back(Segment{.label = label}));
   }
+  ++segments.back().dispatches;
   return segments.back().commands;
 }
 
@@ -309,10 +311,25 @@ void Commands::dispatch(const std::string& label, const ComputePipeline& pipelin
   vkCmdDispatch(commands, groups[0], groups[1], groups[2]);
 }
 
+namespace {
+
+// Adds to the figure `dispatches`: label -> number of them.
+void count_dispatches(Report& report, const std::string& label, int dispatches) {
+  using nlohmann::ordered_json;
+  ordered_json counted = report.to_json()["counts"].value("dispatches", ordered_json::object());
+  counted[label] = counted.value(label, 0) + dispatches;
+  report.count("dispatches", counted);
+}
+
+}  // namespace
+
 void Commands::submit(Report& report) {
   if (impl_->segments.empty()) return;
   impl_->end(impl_->segments.back());
-  for (const Impl::Segment& segment : impl_->segments) report.device_time(segment.label, impl_->run(segment));
+  for (const Impl::Segment& segment : impl_->segments) {
+    report.device_time(segment.label, impl_->run(segment));
+    count_dispatches(report, segment.label, segment.dispatches);
+  }
   impl_->release();
 }
 

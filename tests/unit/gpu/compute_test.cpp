@@ -257,5 +257,19 @@ TEST(Commands, TimeEachLabelOnTheDevice) {
   EXPECT_LE(small + large, elapsed);
 }
 
+TEST(Commands, CountTheDispatchesOfEachLabel) {
+  Device device({});
+  const ComputePipeline pipeline = affine(device, 0);
+  Buffer values = Buffer::from(device, ramp(64)), results(device, 64 * sizeof(float));
+  Report report;
+  for (int run = 0; run < 2; ++run) {
+    Commands commands(device);
+    for (const char* label : {"one", "two", "two", "one"})
+      commands.dispatch(label, pipeline, {values, results}, AffinePush{1, 64}, {1, 1, 1});
+    commands.submit(report);
+  }
+  EXPECT_EQ(report.to_json()["counts"].dump(), R"({"dispatches":{"one":4,"two":4}})");
+}
+
 }  // namespace
 }  // namespace vsgl::gpu
