@@ -2,7 +2,7 @@
 """Reads an experiment's results.csv and tells, scene by scene, what the default chain costs and errs beside the papers' chain and
 every other variant. Ratios are of means over seeds and frames: below 1 the default is faster, or nearer to the reference.
 
-Usage: bars.py RESULTS.csv [--error 0.02] [--json FILE]"""
+Usage: bars.py RESULTS.csv [--error 0.1] [--json FILE]"""
 
 import argparse
 import csv
@@ -127,7 +127,7 @@ def text(results, error, high):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", type=pathlib.Path, help="results.csv of an experiment")
-    parser.add_argument("--error", type=float, default=0.02, help="of the default chain (default 0.02)")
+    parser.add_argument("--error", type=float, default=0.1, help="of the default chain (default 0.1)")
     parser.add_argument("--high", type=float, default=0.001, help="error that stands for high accuracy (default 0.001)")
     parser.add_argument("--json", type=pathlib.Path, help="file for the same figures")
     options = parser.parse_args()

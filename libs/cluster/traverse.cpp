@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "cluster/cells.h"
@@ -17,9 +18,12 @@ using interop::Cluster;
 constexpr double kFloorShare = 0.02;
 // From this roughness down the traversal starts a level deeper.
 constexpr float kNarrowAlpha = 0.05F;
-// The error falls as the 2/3rd power of eps; eps at a relative error of 1 (0.003 at 0.02), and what the
-// estimate is multiplied by: measured, see docs/cut.md.
-constexpr double kThresholdScale = 1.06, kEstimateScale = 2.5;
+// eps at first, in errors aimed at, and what it is multiplied by while the estimate exceeds that error.
+constexpr double kFirstThreshold = 0.15;
+constexpr float kStep = 0.7F;
+// The estimate counts what the nodes err together, and each by itself, so many times: measured, see
+// docs/cut.md.
+constexpr double kBias = 4, kNoise = 1.4;
 // Pixels between the samples may receive so many eps from a cluster that they are near to.
 constexpr float kNearShare = 8;
 // The mean is taken over the samples of at most so many tiles.
@@ -54,12 +58,6 @@ int tile_count(const GBuffer& gbuffer) {
 
 // ---- Traversal
 
-// A node whose light at the samples is known and that has yet to be replaced by its children.
-struct Pending {
-  std::uint32_t node = 0, visible = 0;
-  Lanes value;
-};
-
 // Bit k: of lane k.
 using Mask = std::uint32_t;
 
@@ -70,6 +68,23 @@ float seen(float value, Mask visible, std::size_t lane) {
 bool has_power(const Cluster& c) {
   return c.inverse_variance > 0;
 }
+
+// Four siblings' sum less their parent's value, shadowed, relative to the samples' light.
+struct Group {
+  Lanes difference;
+  Lanes inverse_sum;  // one over the siblings' shadowed shares; 0 where that is nothing
+};
+
+// A node of the cut in the making.
+struct Node {
+  static constexpr std::uint32_t kAlone = ~0U;
+
+  std::uint32_t index = 0, visible = 0;
+  std::uint32_t group = kAlone;  // of its siblings; kAlone: it has not come from a refinement
+  float share = 0;               // as in TileCut::Entry
+  float threshold = 0;           // the least eps at which it stands for its leaves
+  Lanes value;
+};
 
 // One tile's cut in the making.
 class Choice {
@@ -82,130 +97,165 @@ class Choice {
         cells_(cells),
         samples_(samples),
         criterion_(criterion),
-        visibility_(visibility) {
+        visibility_(visibility),
+        eps_(criterion.threshold) {
     out_.samples = static_cast<std::size_t>(std::popcount(samples.present));
   }
 
   // `start`: nodes that are looked at in any case.
   TileCut run(std::span<const std::uint32_t> start) {
-    std::vector<Node> nodes;
-    nodes.reserve(start.size());
-    Lanes light;
-    light.lane.fill(criterion_.floor);
-    for (const std::uint32_t node : start)
-      if (has_power(clusters_[node])) add(light, nodes.emplace_back(look_at(node)));
-    for (std::size_t k = 0; k < kTileSamples; ++k) {
-      const bool present = samples_.present >> k & 1U;
-      inverse_light_[k] = present ? 1 / std::max(light[k], kDark) : 0;
+    begin(start);
+    refine_all();
+    while ((out_.error = estimate()) > criterion_.error) {
+      eps_ *= kStep;
+      reopen();
+      refine_all();
     }
-    for (const Node& node : nodes) settle(node, false);
-    while (!pending_.empty()) refine();
-    finish();
+    for (const Node& node : accepted_) out_.entries.push_back({node.index, node.visible, node.share});
+    std::ranges::sort(out_.entries, {}, &TileCut::Entry::node);
     return std::move(out_);
   }
 
  private:
-  struct Node : Pending {
-    Lanes bound;
-  };
-  static constexpr float kDark = 1e-30F;
+  static constexpr float kDark = 1e-30F, kNothing = 1e-9F;
 
-  Node look_at(std::uint32_t index) {
+  void begin(std::span<const std::uint32_t> start) {
+    std::vector<std::pair<Node, Lanes>> nodes;
+    Lanes light;
+    light.lane.fill(criterion_.floor);
+    for (const std::uint32_t index : start) {
+      if (!has_power(clusters_[index])) continue;
+      auto& [node, bound] = nodes.emplace_back();
+      node = look_at(index, bound);
+      for (std::size_t k = 0; k < kTileSamples; ++k) light[k] += seen(node.value[k], node.visible, k);
+    }
+    for (std::size_t k = 0; k < kTileSamples; ++k) {
+      const bool present = samples_.present >> k & 1U;
+      inverse_light_[k] = present ? 1 / std::max(light[k], kDark) : 0;
+    }
+    for (auto& [node, bound] : nodes) settle(node, bound, std::numeric_limits<float>::max());
+  }
+
+  Node look_at(std::uint32_t index, Lanes& bound) {
     ClusterLight light;
     evaluate(clusters_[index], receivers_, light);
     out_.evaluations += out_.samples;
     Node node;
-    node.node = index;
+    node.index = index;
     node.visible = visibility_ ? visibility_(index, samples_) : samples_.present;
     node.value = light.value;
-    node.bound = light.bound;
+    bound = light.bound;
     return node;
   }
 
-  static void add(Lanes& sum, const Pending& node) {
-    for (std::size_t k = 0; k < kTileSamples; ++k) sum[k] += seen(node.value[k], node.visible, k);
-  }
-
-  // Accepts a node, or leaves it to be refined. `close`: its siblings and it agree with their parent.
-  void settle(const Node& node, bool close) {
-    float share = 0;
-    bool hidden = false;
-    const float eps = criterion_.threshold;
+  // Accepts a node, or leaves it to be refined. `difference`: between its siblings with it and their parent.
+  void settle(Node& node, const Lanes& bound, float difference) {
+    float hidden = 0;
     for (std::size_t k = 0; k < kTileSamples; ++k) {
-      share = std::max(share, node.value[k] * inverse_light_[k]);
+      node.share = std::max(node.share, node.value[k] * inverse_light_[k]);
       // Horizon guard: the cluster is dark here only because its mean is below a horizon.
-      hidden |= node.value[k] < 0.25F * node.bound[k] && node.bound[k] * inverse_light_[k] > 4 * eps;
+      if (node.value[k] < 0.25F * bound[k]) hidden = std::max(hidden, bound[k] * inverse_light_[k]);
     }
-    const bool leaf = clusters_[node.node].children == 0;
-    if (leaf || ((close || share <= eps) && !hidden && !is_near(clusters_[node.node])))
-      out_.entries.push_back({node.node, node.visible, share});
-    else
-      pending_.push_back(node);
+    if (clusters_[node.index].children != 0) {
+      node.threshold = std::max(std::min(node.share, difference), 0.25F * hidden);
+      if (node.threshold <= eps_)
+        node.threshold = std::max(node.threshold, brightest_near(clusters_[node.index]) / kNearShare);
+    }
+    (node.threshold <= eps_ ? accepted_ : pending_).push_back(node);
   }
 
-  // Whether the cluster may be bright on pixels between the samples: it is nearer to some of them than they
-  // are to their sample, and carries more than kNearShare eps of that sample's light there.
-  bool is_near(const Cluster& cluster) {
+  // The largest share that the cluster may have in the light of a cell's sample on one of the cell's pixels:
+  // of those cells some pixels of which are nearer to it than they are to their sample.
+  float brightest_near(const Cluster& cluster) {
     const float deviation = 1 / std::sqrt(cluster.inverse_variance);
-    return std::ranges::any_of(cells_, [&](const Cell& cell) {
+    float most = 0;
+    for (const Cell& cell : cells_) {
       const float x = cluster.position.x - cell.centre.x, y = cluster.position.y - cell.centre.y,
                   z = cluster.position.z - cell.centre.z, reach = cell.radius + 2 * deviation;
-      if (x * x + y * y + z * z > reach * reach) return false;
+      if (x * x + y * y + z * z > reach * reach) continue;
       ClusterLight light;
       evaluate(cluster, cell.receivers, light);
       out_.evaluations += kTileSamples;
-      const float limit = kNearShare * criterion_.threshold, inverse = inverse_light_[cell.sample];
-      bool bright = false;
+      float brightest = 0;
       for (std::size_t k = 0; k < kTileSamples; ++k)
-        bright |= light.value[k] * inverse > limit || light.bound[k] * inverse > limit;
-      return bright;
-    });
+        brightest = std::max({brightest, light.value[k], light.bound[k]});
+      most = std::max(most, brightest * inverse_light_[cell.sample]);
+    }
+    return most;
   }
 
-  // Replaces the topmost pending node by its children.
-  void refine() {
-    const Pending parent = pending_.back();
-    pending_.pop_back();
+  void refine_all() {
+    while (!pending_.empty()) {
+      const Node parent = pending_.back();
+      pending_.pop_back();
+      refine(parent);
+    }
+  }
+
+  // Replaces a node by its children.
+  void refine(const Node& parent) {
     std::array<Node, 4> children;
+    std::array<Lanes, 4> bounds;
     std::size_t count = 0;
-    bool all_leaves = true;
-    const std::uint32_t first = clusters_[parent.node].children;
+    const std::uint32_t first = clusters_[parent.index].children;
     for (std::uint32_t child = first; child < first + 4; ++child) {
       if (!has_power(clusters_[child])) continue;
-      all_leaves = all_leaves && clusters_[child].children == 0;
-      children[count++] = look_at(child);
+      children[count] = look_at(child, bounds[count]);
+      children[count++].group = static_cast<std::uint32_t>(groups_.size());
     }
-    const bool close = compare(parent, std::span(children).first(count), all_leaves);
-    for (std::size_t i = 0; i < count; ++i) settle(children[i], close);
+    const float difference = compare(parent, std::span(children).first(count));
+    for (std::size_t i = 0; i < count; ++i) settle(children[i], bounds[i], difference);
   }
 
-  // Whether the children's sum is that of the parent, shadowed and not, on every sample.
-  bool compare(const Pending& parent, std::span<const Node> children, bool exact) {
+  // How far the children's sum is from the parent: the largest difference on a sample, or half of that of
+  // what is seen.
+  float compare(const Node& parent, std::span<const Node> children) {
     Lanes lit, whole;
-    for (const Node& child : children) {
-      add(lit, child);
-      for (std::size_t k = 0; k < kTileSamples; ++k) whole[k] += child.value[k];
-    }
-    float largest = 0, largest_lit = 0;
-    Lanes squares;
+    for (const Node& child : children)
+      for (std::size_t k = 0; k < kTileSamples; ++k) {
+        lit[k] += seen(child.value[k], child.visible, k);
+        whole[k] += child.value[k];
+      }
+    float largest = 0;
+    Group& group = groups_.emplace_back();
     for (std::size_t k = 0; k < kTileSamples; ++k) {
       const float difference = (whole[k] - parent.value[k]) * inverse_light_[k];
-      const float shadowed = (lit[k] - seen(parent.value[k], parent.visible, k)) * inverse_light_[k];
-      largest = std::max(largest, std::abs(difference));
-      largest_lit = std::max(largest_lit, std::abs(shadowed));
-      squares[k] = shadowed * shadowed;
+      group.difference[k] = (lit[k] - seen(parent.value[k], parent.visible, k)) * inverse_light_[k];
+      const float share = lit[k] * inverse_light_[k];
+      group.inverse_sum[k] = share > kNothing ? 1 / share : 0;
+      largest = std::max({largest, std::abs(difference), 0.5F * std::abs(group.difference[k])});
     }
-    const bool close = largest <= criterion_.threshold && largest_lit <= 2 * criterion_.threshold;
-    if (close && !exact)
-      for (std::size_t k = 0; k < kTileSamples; ++k) variance_[k] += squares[k];
-    return close;
+    return largest;
   }
 
-  void finish() {
-    std::ranges::sort(out_.entries, {}, &TileCut::Entry::node);
-    double sum = 0;
-    for (std::size_t k = 0; k < kTileSamples; ++k) sum += static_cast<double>(variance_[k]);
-    out_.error = kEstimateScale * std::sqrt(sum / static_cast<double>(out_.samples));
+  // Nodes that the smaller eps no longer accepts.
+  void reopen() {
+    const auto open =
+        std::ranges::partition(accepted_, [&](const Node& node) { return node.threshold <= eps_; });
+    pending_.assign(open.begin(), open.end());
+    accepted_.erase(open.begin(), open.end());
+  }
+
+  // Relative error that is left, RMS over the samples: a node is taken to err by its part of what it and its
+  // siblings differ by from their parent, leaves by nothing.
+  double estimate() const {
+    Lanes sum, squares;
+    for (const Node& node : accepted_) {
+      if (node.group == Node::kAlone || clusters_[node.index].children == 0) continue;
+      const Group& group = groups_[node.group];
+      for (std::size_t k = 0; k < kTileSamples; ++k) {
+        const float part = seen(node.value[k], node.visible, k) * inverse_light_[k] * group.inverse_sum[k] *
+                           group.difference[k];
+        sum[k] += part;
+        squares[k] += part * part;
+      }
+    }
+    double total = 0;
+    for (std::size_t k = 0; k < kTileSamples; ++k) {
+      const double together = kBias * static_cast<double>(sum[k]);
+      total += together * together + kNoise * kNoise * static_cast<double>(squares[k]);
+    }
+    return std::sqrt(total / static_cast<double>(out_.samples));
   }
 
   const std::vector<Cluster>& clusters_;
@@ -214,9 +264,10 @@ class Choice {
   const TileSamples& samples_;
   const CutCriterion& criterion_;
   const NodeVisibility& visibility_;
+  float eps_;
   Lanes inverse_light_;  // 0 where there is no sample
-  Lanes variance_;       // sum of the squares of accepted differences
-  std::vector<Pending> pending_;
+  std::vector<Node> pending_, accepted_;
+  std::vector<Group> groups_;
   TileCut out_;
 };
 
@@ -254,7 +305,8 @@ TreeTraversal::TreeTraversal(const GBuffer& gbuffer, const Lights& lights,
 
 CutCriterion TreeTraversal::criterion(double error) const {
   CutCriterion out;
-  out.threshold = static_cast<float>(kThresholdScale * error * std::sqrt(error));
+  out.error = error;
+  out.threshold = static_cast<float>(kFirstThreshold * error);
   out.start_level = sharp_ ? 4 : 3;
   out.floor = static_cast<float>(kFloorShare * mean_light(start_nodes(out.start_level)));
   return out;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,9 @@ struct TileSamples {
 TileSamples tile_samples(const GBuffer& gbuffer, int tile);
 
 struct CutCriterion {
-  float threshold = 0.003F;       // eps: accepted values and differences, relative to the sample's light
+  // Of the tile, estimated: eps is lowered until it is no larger.
+  double error = std::numeric_limits<double>::infinity();
+  float threshold = 0.003F;       // eps at first: accepted values and differences over the sample's light
   float floor = 0;                // radiance added to the sample's light (2% of the image's mean), W/(m^2 sr)
   std::uint32_t start_level = 3;  // of the tree: its nodes, and the leaves above, are all evaluated
 };
@@ -55,8 +58,8 @@ class TreeTraversal {
   // Throws invalid_data when `lights` is not a tree.
   TreeTraversal(const GBuffer& gbuffer, const Lights& lights, const std::vector<interop::Cluster>& clusters);
 
-  // For a relative error of the image (docs/cut.md has the calibration): threshold, floor from the mean
-  // unshadowed light on some of the pixels, and the level to start at.
+  // For a relative error of the image (RMSE over its mean; docs/cut.md has the calibration): floor from the
+  // mean unshadowed light on some of the pixels, and the level to start at.
   CutCriterion criterion(double error) const;
 
   TileCut cut(const TileSamples& samples, const CutCriterion& criterion,

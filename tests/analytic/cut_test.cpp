@@ -69,7 +69,7 @@ TEST_P(CutAgreement, MeanRadiance) {
   const Reference truth = reference::trace_reference(scene.scene, scene.gbuffer, params, report);
   const double mean = mean_luminance(truth.radiance), deviation = deviation_of_mean(truth) / mean;
   const auto ratio = [&](const VisibilityParams& visibility) {
-    return mean_luminance(scene.cut_image(0.02, visibility)) / mean;
+    return mean_luminance(scene.cut_image(VisibilityParams{}.error, visibility)) / mean;
   };
   const double exact = ratio({.method = "rays", .exact = true}), rays = ratio({.method = "rays"}),
                maps = ratio({.method = "maps"});
@@ -83,7 +83,8 @@ TEST_P(CutAgreement, MeanRadiance) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, CutAgreement, testing::ValuesIn(kSettings), name_of);
 
-// ---- The promise of --error: it is of the median; single pixels decide the RMSE, which is printed only.
+// ---- The promise of --error. In images as small as these, single pixels that reflect sharply or lie at
+// contacts, between the samples, decide the RMSE on two scenes; docs/cut.md has larger ones.
 
 struct RelativeError {
   double median = 0;  // over the pixels that are lit
@@ -107,23 +108,26 @@ RelativeError relative_error(const Indirect& image, const Indirect& truth) {
 
 TEST(Cut, ErrorIsWithinThatAskedFor) {
   constexpr double kErrors[] = {0.05, 0.02, 0.01, 0.005, 0.002};
-  int held = 0, cases = 0;
+  int medians = 0, held = 0, cases = 0;
   std::printf("%-22s", "median, rmse / error");
   for (const double error : kErrors) std::printf("%16g", error);
   for (const Setting& setting : kSettings) {
-    const TreeScene scene(setting.scene, setting.alpha, 64, 36, 128);
+    const TreeScene scene(setting.scene, setting.alpha, 96, 54, 128);
     const Indirect truth = scene.all_leaves();
     std::printf("\n%-22s", setting.name);
     for (const double error : kErrors) {
       const RelativeError found =
           relative_error(scene.cut_image(error, {.method = "rays", .exact = true}), truth);
       std::printf("     %5.2f %5.2f", found.median / error, found.rmse / error);
-      held += found.median < error;
+      medians += found.median < error / 2;
+      held += found.rmse < error;
       ++cases;
     }
   }
-  std::printf("\n%d of %d cases held\n", held, cases);
-  EXPECT_GE(10 * held, 9 * cases);
+  std::printf("\nof %d cases, %d with half of the error in the median, %d with all of it in the RMSE\n",
+              cases, medians, held);
+  EXPECT_EQ(medians, cases);
+  EXPECT_GE(2 * held, cases);
 }
 
 // ---- Seams
@@ -146,8 +150,8 @@ class CutSeams : public testing::TestWithParam<Setting> {};
 TEST_P(CutSeams, DoNotShow) {
   const Setting& setting = GetParam();
   const TreeScene scene(setting.scene, setting.alpha, 128, 72, 128);
-  const metrics::LayerPair layer =
-      layer_of(scene.cut_image(0.02, {.method = "rays", .exact = true}), scene.all_leaves());
+  const metrics::LayerPair layer = layer_of(
+      scene.cut_image(VisibilityParams{}.error, {.method = "rays", .exact = true}), scene.all_leaves());
   const auto seams = metrics::measure_seams(layer, std::vector<char>(layer.test.size()), interop::TILE);
   ASSERT_TRUE(seams);
   std::printf(

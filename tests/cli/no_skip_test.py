@@ -20,7 +20,7 @@ SCENES = {
     "caustic-ring": ["caustic-ring"],
     "atrium": ["atrium", "--triangles", "6000"],
 }
-ERROR = 0.02
+ERROR = 0.1
 BOUND = (ERROR / 4) ** 2  # relMSE
 MEAN = 0.001
 

@@ -9,7 +9,7 @@
 namespace vsgl {
 
 struct CutParams {
-  double error = 0.02;  // relative error of the image that the user accepts, 1e-5..1
+  double error = 0.1;  // RMSE over the mean of the image that the user accepts, 1e-5..1
 };
 
 // Unshadowed: visibility is not known. Throws invalid_data when `lights` is not a tree or has another anchor,

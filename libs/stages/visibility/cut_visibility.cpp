@@ -11,7 +11,7 @@ namespace {
 
 // Shares of a sample's light from which on a node is looked at pixel by pixel, relative to the error aimed
 // at. docs/visibility.md has the measurement.
-constexpr float kMixedShare = 0.1F, kEdgeShare = 0.2F;
+constexpr float kMixedShare = 0.02F, kEdgeShare = 0.04F;
 
 // One tile's cut with what its samples see, and the number of looks that this took.
 struct SeenCut {
