@@ -1,5 +1,5 @@
-"""Channels of EXR files as arrays. The tools' files of one part in scan lines, which are not compressed, are read here; oiiotool turns
-others into such."""
+"""Channels of EXR files as arrays. The tools' files of one part in scan lines, which are not compressed, are read here; oiiotool
+turns others into such."""
 
 import pathlib
 import struct
@@ -8,6 +8,7 @@ import tempfile
 
 import numpy
 
+LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722])  # of linear Rec. 709
 MAGIC = 20000630
 TILED, SEVERAL_PARTS = 0x200, 0x1000
 NUMBERS = {"float": "<f4", "v3f": "<f4", "double": "<f8", "v3d": "<f8"}  # kinds of attributes
@@ -51,8 +52,9 @@ def _converted(path, part):
     """The file's part, without compression and in scan lines, as bytes."""
     with tempfile.TemporaryDirectory() as folder:
         target = pathlib.Path(folder) / "plain.exr"
-        subprocess.run(["oiiotool", "--nosoftwareattrib", path, "--subimage", str(part), "--selectmip", "0", "--compression", "none", "--scanline", "-o", target],
-                       check=True, capture_output=True)
+        command = ["oiiotool", "--nosoftwareattrib", path, "--subimage", str(part), "--selectmip", "0", "--compression", "none",
+                   "--scanline", "-o", target]
+        subprocess.run(command, check=True, capture_output=True)
         return target.read_bytes()
 
 

@@ -1,4 +1,5 @@
-"""Filter kernels of a list of lights over the reflective shadow map that they were sampled from: which texels they cover, how often."""
+"""Filter kernels of a list of lights over the reflective shadow map that they were sampled from: which texels they cover, how
+often; and the powers of lights."""
 
 import functools
 import math
@@ -8,12 +9,16 @@ import numpy
 import exr
 
 
+def luminous_powers(found):
+    """Luminance of each light's power, both lobes together."""
+    lobes = [lobe for lobe in ("diffuse", "specular") if f"power_{lobe}.R" in found]
+    return sum(found[f"power_{lobe}.{c}"].astype(float) * weight for lobe in lobes for c, weight in zip("RGB", exr.LUMINANCE))
+
+
 def squares(lights, size):
     """(x, y, half side, layer) in texels of each light's kernel: a square of 4^level texels about the sampled one."""
     found, _ = exr.read(lights)
-    kept = found["power_diffuse.R"] + found["power_diffuse.G"] + found["power_diffuse.B"] > 0
-    if "power_specular.R" in found:
-        kept = kept | (found["power_specular.R"] + found["power_specular.G"] + found["power_specular.B"] > 0)
+    kept = luminous_powers(found) > 0
     texel, level, layer = (found[name][kept] for name in ("texel.I", "level.V", "layer.I"))
     return numpy.stack([texel % size + 0.5, texel // size + 0.5, 2.0 ** level.astype(float) / 2, layer], axis=-1)
 
@@ -24,11 +29,9 @@ def covered(kernels, size):
     for x, y, half, layer in kernels:
         if layer != 0:
             continue
-        along = [numpy.clip(numpy.minimum(numpy.arange(size) + 1, c + half) - numpy.maximum(numpy.arange(size), c - half), 0, 1)
-                 for c in (x, y)]
-        first = [max(0, math.floor(c - half)) for c in (x, y)]
-        last = [min(size, math.ceil(c + half)) for c in (x, y)]
-        found[first[1]:last[1], first[0]:last[0]] += numpy.outer(along[1][first[1]:last[1]], along[0][first[0]:last[0]])
+        across, down = (numpy.arange(max(0, math.floor(c - half)), min(size, math.ceil(c + half))) for c in (x, y))
+        shares = [numpy.minimum(texels + 1, c + half) - numpy.maximum(texels, c - half) for texels, c in ((across, x), (down, y))]
+        found[numpy.ix_(down, across)] += numpy.outer(shares[1], shares[0])
     return found
 
 
@@ -39,10 +42,10 @@ def density(pdf):
 
 @functools.cache
 def coverage(lights, pdf):
-    """Weighted by the density, so that places without light do not count. `gap`: share that no kernel covers; `overlap`: share of the
-    kernels' cover beyond the first one of a texel; `worst`: most kernels over one texel; `largest`: share of all texels in the
-    largest kernel; `mass_spread`: standard deviation over mean of the density that kernels hold, which is the same for all where
-    they fit."""
+    """Weighted by the density, so that places without light do not count. `gap`: share that no kernel covers; `overlap`: share of
+    the kernels' cover beyond the first one of a texel; `worst`: most kernels over one texel; `largest`: share of all texels in
+    the largest kernel; `mass_spread`: standard deviation over mean of the density that kernels hold, which is the same for all
+    where they fit."""
     weights = density(pdf)
     size = len(weights)
     kernels = squares(f"{lights}/lights.exr", size)
@@ -61,7 +64,6 @@ def coverage(lights, pdf):
 def lights(folder):
     """`brightest`: the largest power of a light over the mean one; `spread`: standard deviation of powers over their mean."""
     found, _ = exr.read(f"{folder}/lights.exr")
-    powers = sum(found[f"power_{lobe}.{c}"].astype(float) * weight for lobe in ("diffuse", "specular") if f"power_{lobe}.R" in found
-                 for c, weight in zip("RGB", (0.2126, 0.7152, 0.0722)))
+    powers = luminous_powers(found)
     powers = powers[powers > 0]
     return {"brightest": float(powers.max() / powers.mean()), "spread": float(powers.std() / powers.mean())}

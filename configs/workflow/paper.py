@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Reproduces the papers' figures and tables on our own scenes: configs/paper/*.json as experiments, all on one page. What is there
-already and still valid is not made again. docs/paper.md describes it."""
+"""Reproduces the papers' figures and tables on our own scenes: configs/paper/*.json as experiments, all on one page. What is
+there already and still valid is not made again. docs/paper.md describes it."""
 
 import argparse
 import os
@@ -14,7 +14,8 @@ from plan import ExperimentError
 from stage import processor
 
 SUMMARY = ("Each figure and table of the two papers on virtual spherical Gaussian lights [Tokuyoshi 2014, Tokuyoshi 2016], as an "
-           "experiment on scenes of this project. Claims are tested, and every number in the texts headed \"Here\" was measured in this run.")
+           "experiment on scenes of this project. Claims are tested, and every number in the texts headed \"Here\" was measured "
+           "in this run.")
 
 
 def selected(folder, only):
@@ -36,7 +37,8 @@ def check_figures(figures, bin_dir):
             except ExperimentError as error:
                 refused.append(str(error))
     if refused:
-        raise ExperimentError("\n".join([*refused, "these figures need other tools: `make build`, or choose figures with --only"]))
+        remedy = "these figures need other tools: `make build`, or choose figures with --only"
+        raise ExperimentError("\n".join([*refused, remedy]))
 
 
 def summary(options, size):
@@ -59,8 +61,8 @@ def run(options):
     write_inputs(plan, folder, bin_dir)
     for figure in figures:
         write_if_changed(folder / "figures" / figure.name / "figure.json", as_text(figure.to_json()))
-    write_if_changed(folder / "figures.json",
-                     as_text({"size": options.size, "summary": summary(options, size), "figures": [figure.name for figure in figures]}))
+    overview = {"size": options.size, "summary": summary(options, size), "figures": [figure.name for figure in figures]}
+    write_if_changed(folder / "figures.json", as_text(overview))
     threads = options.threads or max(1, len(os.sched_getaffinity(0)) // options.jobs)
     status = run_snakemake("paper.smk", folder, bin_dir, threads, options.jobs, options.snakemake, lock, options.device)
     if status != 0 or {"-n", "--dry-run", "--dryrun"} & set(options.snakemake):
@@ -76,13 +78,14 @@ def main():
     parser.add_argument("--bin", required=True, type=pathlib.Path, help="folder of the built tools")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the results")
     parser.add_argument("--only", nargs="+", default=[], metavar="FIGURE", help="only these figures (files of configs/paper)")
-    parser.add_argument("--figures", type=pathlib.Path, default=FOLDER, help="folder of the figures' files (default: configs/paper)")
-    parser.add_argument("--size", default="default", help="of images and sample counts: default, quick or papers (default: default)")
+    parser.add_argument("--figures", type=pathlib.Path, default=FOLDER, help="folder of figures (default: configs/paper)")
+    parser.add_argument("--size", default="default", help="of images and sample counts: default, quick or papers")
     parser.add_argument("--quick", action="store_const", const="quick", dest="size", help="the same as --size quick")
     parser.add_argument("--device", default="auto", help="Vulkan device of the tools (default: auto)")
     parser.add_argument("--jobs", type=int, default=1, help="tools that run at once; more than 1 disturbs the times (default 1)")
     parser.add_argument("--threads", type=int, help="of each tool (default: all cores, divided by --jobs)")
-    parser.add_argument("--snakemake", type=shlex.split, default=[], metavar="ARGS", help="further arguments of snakemake, in one word")
+    parser.add_argument("--snakemake", type=shlex.split, default=[], metavar="ARGS",
+                        help="further arguments of snakemake, in one word")
     return run(parser.parse_args())
 
 

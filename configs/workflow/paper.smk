@@ -1,5 +1,5 @@
-# The workflow of `make paper`: the rules of stages.smk, sequences of frames, and a page of all figures. paper.py writes plan.json and
-# figures/<figure>/figure.json.
+# The workflow of `make paper`: the rules of stages.smk, sequences of frames, and a page of all figures. paper.py writes
+# plan.json, figures.json and figures/<figure>/figure.json.
 
 include: "stages.smk"
 
@@ -53,6 +53,10 @@ rule figure:
 
 
 rule paper_report:
-    input: "figures.json", "tools/report.sha256", f"{WORKFLOW}/paper_report.py", [f"figures/{name}/section.json" for name in PLAN["figures"]]
+    input:
+        "figures.json",
+        "tools/report.sha256",
+        f"{WORKFLOW}/paper_report.py",
+        [f"figures/{name}/section.json" for name in PLAN["figures"]],
     output: "report.html", "report-spec.json", "results.json", "claims.csv"
     shell: "{PYTHON} {WORKFLOW}/paper_report.py && {BIN}/report report-spec.json --overwrite --quiet -o report.html"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Measures, draws and tells one of the papers' figures from what its stages left: values.json, pictures, tables as CSV, and section.json,
-its part of the page. Runs in the output folder.
+"""Measures, draws and tells one of the papers' figures from what its stages left: values.json, pictures, tables as CSV, and
+section.json, its part of the page. Runs in the output folder.
 
 Usage: paper_figure.py FIGURE"""
 
@@ -8,7 +8,7 @@ import csv
 import pathlib
 import sys
 
-from paper_measures import Data, read_json
+from paper_measures import Data, NothingFound, read_json
 from paper_pictures import animate, draw
 from paper_values import evaluate, fill, names
 from stage import write_json
@@ -24,11 +24,15 @@ def claims(content, values):
 
 
 def table_rows(table, data):
-    """A row is images, a sequence or a method; a column is a measure of them, or quotes the paper's own figures."""
+    """A row is images, a sequence or a method; a column is a measure of them, a measure for each row, or quotes the paper."""
     def cell(label, row, column):
+        if label in column.get("not", []):
+            return None
         if "given" in column:
             return column["given"].get(label)
-        return None if label in column.get("not", []) else data.one(row | column)
+        if "values" in column:
+            return data.values[column["values"][label]]
+        return data.one(row | column)
     return [[label, *(cell(label, row, column) for column in table["columns"].values())] for label, row in table["rows"].items()]
 
 
@@ -37,11 +41,43 @@ def write_table(table, rows, target):
         csv.writer(file, lineterminator="\n").writerows([["", *table["columns"]], *rows])
 
 
+def text(content, values):
+    return {"type": "text", "text": "\n\n".join(f"{HEADS[part]}: {fill(content['text'][part], values)}" for part in HEADS)}
+
+
+def pictures(content, data, folder):
+    """Draws them; blocks of the page."""
+    blocks = []
+    for i, picture in enumerate(content.get("pictures", [])):
+        target = folder / f"picture-{i + 1}.png"
+        draw(picture, data, target)
+        blocks.append({"png": str(target), "alt": picture["alt"], "caption": fill(picture["caption"], data.values)})
+    if "animation" in content:
+        target = folder / "animation.png"
+        animate(content["animation"], data, target)
+        blocks.append({"png": str(target), "alt": content["animation"]["alt"], "caption": content["animation"]["caption"]})
+    return [{"type": "figure", **block} for block in blocks]
+
+
+def tables(content, data, folder):
+    """Writes them; blocks of the page."""
+    blocks = []
+    for i, table in enumerate(content.get("tables", [])):
+        rows = table_rows(table, data)
+        write_table(table, rows, folder / f"table-{i + 1}.csv")
+        columns = [table.get("head", " "), *table["columns"]]
+        blocks.append({"type": "table", "caption": table["caption"], "columns": columns, "rows": rows})
+    return blocks
+
+
 def viewer(content, data):
     """Some of the images beside their reference, to look at closely."""
-    rows = [data.select(where)[0] for where in content["viewer"].values()]
-    return {"type": "images", "reference": {"file": rows[0]["reference"], "label": "reference"},
-            "tests": [{"file": row["image"], "label": label} for row, label in zip(rows, content["viewer"])], "layers": ["indirect"]}
+    rows = {label: data.select(where)[0] for label, where in content["viewer"].items()}
+    references = {row["reference"] for row in rows.values()}
+    if len(references) != 1:
+        raise NothingFound(f"viewer: its images have {len(references)} references")
+    return {"type": "images", "reference": {"file": references.pop(), "label": "reference"}, "layers": ["indirect"],
+            "tests": [{"file": row["image"], "label": label} for label, row in rows.items()]}
 
 
 def main():
@@ -50,26 +86,12 @@ def main():
     figure = read_json(folder / "figure.json")
     content = figure["content"]
     data = Data(figure)
-    data.values = data.all()
-    text = "\n\n".join(f"{HEADS[part]}: {fill(content['text'][part], data.values)}" for part in HEADS)
-    blocks = [{"type": "text", "text": text}]
-    for i, picture in enumerate(content.get("pictures", [])):
-        target = folder / f"picture-{i + 1}.png"
-        draw(picture, data, target)
-        blocks.append({"type": "figure", "png": str(target), "alt": picture["alt"], "caption": fill(picture["caption"], data.values)})
-    if "animation" in content:
-        target = folder / "animation.png"
-        animate(content["animation"], data, target)
-        blocks.append({"type": "figure", "png": str(target), "alt": content["animation"]["alt"], "caption": content["animation"]["caption"]})
-    for i, table in enumerate(content.get("tables", [])):
-        rows = table_rows(table, data)
-        write_table(table, rows, folder / f"table-{i + 1}.csv")
-        blocks.append({"type": "table", "caption": table["caption"], "columns": [table.get("head", " "), *table["columns"]], "rows": rows})
-    judged = claims(content, data.values)
+    blocks = [text(content, data.values), *pictures(content, data, folder), *tables(content, data, folder)]
     if "viewer" in content:
         blocks.append(viewer(content, data))
-    write_json(folder / "values.json", {"figure": name, "values": data.values, "claims": judged})
-    write_json(folder / "section.json", {"title": f"{content['paper']}, {content['label']}: {content['title']}", "content": blocks})
+    write_json(folder / "values.json", {"figure": name, "values": data.values, "claims": claims(content, data.values)})
+    title = f"{content['paper']}, {content['label']}: {content['title']}"
+    write_json(folder / "section.json", {"title": title, "content": blocks})
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""What is measured of the papers' figures: metrics and times of images, flicker of sequences, kernels and lights, sizes of code."""
+"""What is measured of the papers' figures: metrics and times of images, flicker of sequences, kernels and lights, sizes of
+code."""
 
 import json
 import pathlib
@@ -12,7 +13,6 @@ from paper_values import evaluate
 from results import metrics
 
 FILES = ("read", "write")
-LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722])
 
 
 class NothingFound(Exception):
@@ -24,11 +24,13 @@ def read_json(path):
 
 
 class Data:
-    """The results of a figure's stages. Runs in the output folder."""
+    """The results of a figure's stages. Runs in the output folder. values: name -> value of each of its measures."""
 
     def __init__(self, figure):
         self.rows, self.sequences, self.code = figure["rows"], figure["sequences"], figure["code"]
-        self.measures = figure["content"]["measures"]
+        self.values = {}
+        for name, spec in figure["content"]["measures"].items():
+            self.values[name] = evaluate(spec["expression"], self.values) if "expression" in spec else self.one(spec)
 
     def select(self, where):
         """The images that the selector names by scene, variant, n, error, seed and frame; at least one."""
@@ -44,16 +46,9 @@ class Data:
         raise NothingFound(f"no sequence \"{name}\"; there are " + ", ".join(row["sequence"] for row in self.sequences))
 
     def one(self, spec):
-        """A measure's value, the mean over the images that it names."""
+        """A measure's value."""
         kind = next(key for key in spec if key in MEASURES)
         return MEASURES[kind](self, spec)
-
-    def all(self):
-        """Name -> value of all measures, in their order."""
-        values = {}
-        for name, spec in self.measures.items():
-            values[name] = evaluate(spec["expression"], values) if "expression" in spec else self.one(spec)
-        return values
 
 
 def mean_of(function):
@@ -67,7 +62,7 @@ def metric(row, spec):
 
 
 def milliseconds(row, spec):
-    """Of stages, or of some of their phases, without the reading and writing of files. Clock "device": only while the device ran."""
+    """Of stages, or of some of their phases, without reading and writing files. Clock "device": only while the device ran."""
     total = 0
     for tool in spec["time"]:
         phases = read_json(f"{row['stages'][tool]}/report.json")["phases"]
@@ -75,6 +70,7 @@ def milliseconds(row, spec):
             phases = [phase for phase in phases if phase["name"] in spec["phases"]]
             if not phases:
                 raise NothingFound(f"{tool}: no phase {', '.join(spec['phases'])}")
+        phases = [phase for phase in phases if phase["name"] not in spec.get("without", [])]
         if spec.get("clock") == "device":
             total += sum(phase.get("device_s", 0) for phase in phases)
         else:
@@ -93,7 +89,7 @@ def count(row, spec):
 def channel(row, spec):
     """Of the image's channel: its mean over the pixels that are not black, or the share of pixels above a value."""
     values = exr.channels(row["image"], spec["channel"])
-    lit = exr.colour(row["image"]) @ LUMINANCE > 0
+    lit = exr.colour(row["image"]) @ exr.LUMINANCE > 0
     if "above" in spec:
         return float(numpy.mean(values[lit] > spec["above"]))
     return float(numpy.mean(values[lit]))
@@ -129,6 +125,19 @@ def code(data, spec):
     return sum(code_lines(pathlib.Path(path).read_text(encoding="utf-8")) for path in paths)
 
 
-MEASURES = {"metric": mean_of(metric), "time": mean_of(milliseconds), "count": mean_of(count), "channel": mean_of(channel),
-            "kernels": mean_of(kernel), "light": mean_of(light), "flicker": flicker, "frame_time": frame_time, "code": code,
-            "dispatches": mean_of(lambda row, spec: dispatches(read_json(f"{row['stages'][spec['dispatches']]}/report.json")))}
+def dispatch_count(row, spec):
+    return dispatches(read_json(f"{row['stages'][spec['dispatches']]}/report.json"))
+
+
+MEASURES = {
+    "metric": mean_of(metric),
+    "time": mean_of(milliseconds),
+    "count": mean_of(count),
+    "channel": mean_of(channel),
+    "kernels": mean_of(kernel),
+    "light": mean_of(light),
+    "dispatches": mean_of(dispatch_count),
+    "flicker": flicker,
+    "frame_time": frame_time,
+    "code": code,
+}

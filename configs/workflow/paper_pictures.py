@@ -1,5 +1,5 @@
-"""Pictures of the papers' figures: rows of panels, each an image, an error map, a density with kernels, lights, or curves, drawn with
-matplotlib; and animations of sequences. The same data give the same bytes."""
+"""Pictures of the papers' figures: rows of panels, each an image, an error map, a density with kernels, lights, or curves, drawn
+with matplotlib; and animations of sequences. The same data give the same bytes."""
 
 import io
 
@@ -13,7 +13,7 @@ from PIL import Image  # noqa: E402
 
 import exr  # noqa: E402
 import kernels  # noqa: E402
-from paper_measures import LUMINANCE, read_json  # noqa: E402
+from paper_measures import read_json  # noqa: E402
 from paper_values import fill  # noqa: E402
 from plots import COLOURS, MARKERS, STYLE  # noqa: E402
 
@@ -29,7 +29,7 @@ def srgb(linear):
 
 def exposure(image):
     """The factor that brings the 95th percentile of the positive luminances to 0.8; 1 where there is none."""
-    values = image @ LUMINANCE
+    values = image @ exr.LUMINANCE
     values = values[values > 0]
     return 0.8 / float(numpy.quantile(values, 0.95)) if len(values) else 1.0
 
@@ -45,7 +45,7 @@ def cropped(image, crop):
 
 def relative_error(image, truth):
     """|Ya - Yb| / (|Yb| + mean|Yb| / 100), as in compare --false-color."""
-    a, b = image @ LUMINANCE, truth @ LUMINANCE
+    a, b = image @ exr.LUMINANCE, truth @ exr.LUMINANCE
     return numpy.abs(a - b) / (numpy.abs(b) + numpy.abs(b).mean() / 100)
 
 
@@ -94,7 +94,8 @@ class Drawing:
         draw_density(axes, density, panel.get("crop"))
         for x, y, half, layer in kernels.squares(f"{row['stages']['vsgl-gen']}/lights.exr", len(density)):
             if layer == 0:
-                axes.add_patch(Rectangle((x - half - 0.5, y - half - 0.5), 2 * half, 2 * half, fill=False, edgecolor="#ff9a2e", linewidth=0.6))
+                corner = (x - half - 0.5, y - half - 0.5)
+                axes.add_patch(Rectangle(corner, 2 * half, 2 * half, fill=False, edgecolor="#ff9a2e", linewidth=0.6))
                 axes.plot(x - 0.5, y - 0.5, ".", color="#ff2020", markersize=1.6)
 
     def lights(self, axes, panel):
@@ -161,16 +162,17 @@ def draw_density(axes, density, crop):
 
 
 def draw_lights(axes, stages):
-    """Each light where the light source sees it: a disk of radius sqrt(2) sigma [Tokuyoshi 2014], bright by power over area; a dot of
-    one texel where the radius is smaller."""
+    """Each light where the light source sees it: a disk of radius sqrt(2) sigma [Tokuyoshi 2014], bright by power over area; a
+    dot of one texel where the radius is smaller."""
     found, _ = exr.read(f"{stages['vsgl-gen']}/lights.exr")
     rsm, source = exr.read(f"{stages['rsm-bake']}/rsm.exr")
     size = len(rsm["weight.V"])
     relative = numpy.stack([found[f"position.{c}"].ravel() for c in "XYZ"], axis=-1) - source["light.position"]
     depth = relative @ source["light.forward"]
-    power = sum(found[f"power_diffuse.{c}"].ravel() * weight for c, weight in zip("RGB", LUMINANCE))
+    power = kernels.luminous_powers(found).ravel()
     kept = (power > 0) & (depth > 0)
-    x, y = (relative[kept] @ source[f"light.{axis}"] / (depth[kept] * source[f"light.extent_{c}"]) for axis, c in (("right", "x"), ("up", "y")))
+    x, y = (relative[kept] @ source[f"light.{axis}"] / (depth[kept] * source[f"light.extent_{c}"])
+            for axis, c in (("right", "x"), ("up", "y")))
     radius = numpy.sqrt(2 * found["variance.V"].ravel()[kept])
     pixels = numpy.maximum(radius / (depth[kept] * source["light.extent_x"]) * size / 2, 0.75)
     brightness = power[kept] / pixels**2
@@ -180,7 +182,8 @@ def draw_lights(axes, stages):
     axes.set_ylim(size, 0)
     axes.set_aspect("equal")
     for i in numpy.argsort(-pixels):
-        axes.add_patch(Circle(((x[i] + 1) * size / 2, (1 - y[i]) * size / 2), pixels[i], color=str(brightness[i]), linewidth=0, alpha=0.8))
+        centre = ((x[i] + 1) * size / 2, (1 - y[i]) * size / 2)
+        axes.add_patch(Circle(centre, pixels[i], color=str(brightness[i]), linewidth=0, alpha=0.8))
 
 
 def frame_path(sequence, number, truth):
@@ -222,8 +225,8 @@ def draw(picture, data, target):
                     axes.set_xticks([])
                     axes.set_yticks([])
             if "label" in row:
-                places[0].annotate(row["label"], (0, 0.5), xytext=(-14, 0), xycoords="axes fraction", textcoords="offset points", rotation=90,
-                                   ha="right", va="center", fontweight="bold")
+                places[0].annotate(row["label"], (0, 0.5), xytext=(-14, 0), xycoords="axes fraction", textcoords="offset points",
+                                   rotation=90, ha="right", va="center", fontweight="bold")
         figure.savefig(target, dpi=DPI, metadata={"Software": None})
         plt.close(figure)
 
@@ -234,18 +237,21 @@ def animate(animation, data, target):
     frames, scale = [], None
     number = min(data.sequence(panel["frame"])["frames"] for panel in panels)
     for t in range(number):
-        images = [exr.colour(frame_path(data.sequence(panel["frame"]), t, panel.get("truth", False))) for panel in panels]
+        paths = [frame_path(data.sequence(panel["frame"]), t, panel.get("truth", False)) for panel in panels]
+        images = [exr.colour(path) for path in paths]
         scale = scale or exposure(images[0])
-        frames.append(framed([srgb(scale * image) for image in images], [fill(panel["title"], data.values) for panel in panels]))
-    back_and_forth = frames + frames[-2:0:-1]
-    back_and_forth[0].save(target, save_all=True, append_images=back_and_forth[1:], duration=1000 // animation.get("rate", 15), loop=0)
+        titles = [fill(panel["title"], data.values) for panel in panels]
+        frames.append(framed([srgb(scale * image) for image in images], titles))
+    frames += frames[-2:0:-1]
+    frames[0].save(target, save_all=True, append_images=frames[1:], duration=1000 // animation.get("rate", 15), loop=0)
 
 
 def framed(images, titles):
     """Images in a row, each under its title, as a PIL image."""
     height, width = images[0].shape[:2]
     with plt.rc_context({"font.size": 9}):
-        figure, grid = plt.subplots(1, len(images), squeeze=False, layout="constrained", figsize=(width * len(images) / DPI + 0.1, height / DPI + 0.35))
+        size = (width * len(images) / DPI + 0.1, height / DPI + 0.35)
+        figure, grid = plt.subplots(1, len(images), squeeze=False, layout="constrained", figsize=size)
         for axes, image, title in zip(grid[0], images, titles):
             axes.imshow(image, interpolation="nearest")
             axes.set_title(title, loc="left", fontsize=9)

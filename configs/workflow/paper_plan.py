@@ -1,5 +1,5 @@
-"""The papers' figures: reading configs/paper/*.json, and the stages that must run for them. A figure is an experiment, or sequences of
-frames, or both, and says what is measured, drawn and told of them. docs/paper.md describes the files."""
+"""The papers' figures: reading configs/paper/*.json, and the stages that must run for them. A figure is an experiment, or
+sequences of frames, or both, and says what is measured, drawn and told of them. docs/paper.md describes the files."""
 
 import copy
 import pathlib
@@ -69,14 +69,18 @@ def check_names(figure, path):
     def require(used, place):
         for name in used:
             if name not in known:
-                raise ExperimentError(f"{path}: {pointer(place)}: \"{name}\" is not measured; there are {', '.join(known) or 'none'}")
+                others = ", ".join(known) or "none"
+                raise ExperimentError(f"{path}: {pointer(place)}: \"{name}\" is not measured; there are {others}")
 
     try:
         for name, measure in figure["measures"].items():
-            require(names(measure["expression"]) if "expression" in measure else [], ["measures", name])
+            require(names(measure.get("expression", "0")), ["measures", name])
             known.append(name)
         for i, claim in enumerate(figure.get("claims", [])):
             require(names(claim["holds"]), ["claims", i, "holds"])
+        for i, table in enumerate(figure.get("tables", [])):
+            for title, column in table["columns"].items():
+                require(column.get("values", {}).values(), ["tables", i, "columns", title, "values"])
         for place, text in texts(figure):
             require(placeholders(text), place)
     except BadExpression as error:
@@ -91,15 +95,16 @@ class FigureExperiment(Plan):
 
 
 class Sequences(Plan):
-    """Frames of an animated scene, by `render` with several pipelines, each sequence compared with path tracing. Its options stand
-    below /sequences."""
+    """Frames of an animated scene, by `render` with several pipelines, each sequence compared with path tracing. Its options
+    stand below /sequences."""
 
     def __init__(self, sequences, path):
         self.sequences = sequences
         frames = sequences["frames"]
         experiment = {key: sequences[key] for key in ("resolution", "rsm_bake", "reference") if key in sequences}
         experiment["reference"] = {"seed": 1000000} | experiment["reference"]
-        super().__init__(experiment | {"scenes": {"sequence": sequences["scene"]}, "frames": list(range(frames)), "variants": {}}, path)
+        experiment |= {"scenes": {"sequence": sequences["scene"]}, "frames": list(range(frames)), "variants": {}}
+        super().__init__(experiment, path)
         truth = self.link([self.truth(frame) for frame in range(frames)])
         self.sequence_rows = [self.add_sequence(name, pipeline, truth) for name, pipeline in sequences["pipelines"].items()]
 

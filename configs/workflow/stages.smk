@@ -1,5 +1,5 @@
-# A rule per tool. plan.json says what each stage reads; the folder's name {key} stands for its options. Included by the workflows, which
-# run in their output folder; `--config` gives bin, workflow, threads, jobs, python and perhaps device.
+# A rule per tool. plan.json says what each stage reads; the folder's name {key} stands for its options. Included by the
+# workflows, which run in their output folder; `--config` gives bin, workflow, threads, jobs, python and device.
 
 import json
 import shlex
@@ -9,7 +9,7 @@ BIN = config["bin"]
 WORKFLOW = config["workflow"]
 THREADS = int(config["threads"])
 PYTHON = config["python"]
-DEVICE = config.get("device", "auto")
+DEVICE = config["device"]
 
 
 def stage(tool, wildcards):
@@ -34,7 +34,7 @@ def given(flag, name):
 
 
 def timing(tool):
-    """A run before, where the times of this stage count and its shaders may not be compiled yet; several runs, where they must be sure."""
+    """How often it runs: once more before where its shaders may not be compiled yet, several times where times must be sure."""
     def flags(wildcards):
         found = stage(tool, wildcards)
         return f"--repetitions {found.get('repetitions', 1)}" + (" --warm-up" if found["warm_up"] else "")
@@ -44,7 +44,10 @@ def timing(tool):
 def patch(wildcards):
     """Changes of a generated scene."""
     changes = stage("scene-gen", wildcards).get("patch")
-    return "" if changes is None else f"&& {PYTHON} {WORKFLOW}/scene_patch.py {shlex.quote(json.dumps(changes))} stages/scene-gen/{wildcards.key}/scene.json"
+    if changes is None:
+        return ""
+    words = [PYTHON, f"{WORKFLOW}/scene_patch.py", json.dumps(changes), f"stages/scene-gen/{wildcards.key}/scene.json"]
+    return "&& " + shlex.join(words)
 
 
 def checkpoint(wildcards):
@@ -58,8 +61,8 @@ def outputs(tool, *names):
 
 def run(tool, accept="0", stages=None):
     """Runs the tool in its folder, which is among those of the tool's name or of another; see stage.py."""
-    return (f"{PYTHON} {WORKFLOW}/stage.py --folder stages/{stages or tool}/{{wildcards.key}} --threads {{threads}} --jobs {config['jobs']} "
-            f"--device {DEVICE} --accept {accept} {{params.timing}} -- {BIN}/{tool} ")
+    return (f"{PYTHON} {WORKFLOW}/stage.py --folder stages/{stages or tool}/{{wildcards.key}} --threads {{threads}} "
+            f"--jobs {config['jobs']} --device {DEVICE} --accept {accept} {{params.timing}} -- {BIN}/{tool} ")
 
 
 wildcard_constraints:
