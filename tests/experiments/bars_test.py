@@ -16,18 +16,18 @@ sys.path.insert(0, str(SCRIPT.parent))
 from bars import curve_at  # noqa: E402
 
 COLUMNS = ["scene", "frame", "variant", "n", "error", "seed", "ismap_s", "shade_s", "shading_s", "time_s", "time_with_files_s", "wall_s",
-           "relmse_rgb", "relmse_trimmed", "luminance_bias"]
+           "relmse_rgb", "relmse_trimmed", "relmse_trimmed_denoised", "luminance_bias"]
 
 
 def row(variant, n, error, shading, time, wrong, seed=0, bias=1.0):
     return {"scene": "box", "frame": "", "variant": variant, "n": n, "error": error, "seed": seed, "ismap_s": 0.5, "shade_s": 2 * shading,
             "shading_s": shading, "time_s": time, "time_with_files_s": 2 * time, "wall_s": 3 * time, "relmse_rgb": 3 * wrong,
-            "relmse_trimmed": wrong, "luminance_bias": bias}
+            "relmse_trimmed": wrong, "relmse_trimmed_denoised": wrong / 2, "luminance_bias": bias}
 
 
 ROWS = [
-    row("default", "", 0.02, 0.1, 1, 0.01, bias=0.98), row("default", "", 0.001, 0.4, 4, 0.0001),
-    row("default-exact", "", 0.02, 0.125, 3, 0.002, bias=1.01), row("default-exact", "", 0.001, 0.5, 9, 0.0002),
+    row("default", "", 0.1, 0.1, 1, 0.01, bias=0.98), row("default", "", 0.001, 0.4, 4, 0.0001),
+    row("default-exact", "", 0.1, 0.125, 3, 0.002, bias=1.01), row("default-exact", "", 0.001, 0.5, 9, 0.0002),
     row("fis-2016", 1024, "", 1.5, 4, 0.4), row("fis-2016", 1024, "", 2.5, 12, 0.2, seed=1),
     row("fis-2016-exact", 1024, "", 1, 30, 0.1),
     row("vpl", 64, "", 0.1, 0.5, 0.02), row("vpl", 1024, "", 0.1, 2, 0.0009), row("vpl", 4096, "", 0.1, 2, 0.002),
@@ -57,6 +57,7 @@ class Bars(unittest.TestCase):
         self.assertAlmostEqual(box["exact"]["sight_and_shading"], 0.625 / 1.5)
         self.assertAlmostEqual(box["exact"]["relmse_trimmed"], 1 / 50)
         self.assertAlmostEqual(box["exact_high"]["relmse_trimmed"], 1 / 500)
+        self.assertAlmostEqual(box["exact_high"]["relmse_trimmed_denoised"], 1 / 500)
         self.assertAlmostEqual(box["end_to_end"]["time"], 1 / 8)
         self.assertAlmostEqual(box["end_to_end"]["relmse_rgb"], 1 / 30)
         self.assertEqual((box["mean_exact"], box["mean"]), (1.01, 0.98))

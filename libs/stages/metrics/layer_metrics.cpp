@@ -69,21 +69,30 @@ class LayerMeter {
 
   void measure_relative(LayerResult& out) const {
     const double epsilon = relative_epsilon();
-    std::vector<double> errors, denoised;
+    struct Pixel {
+      double error, denoised;
+    };
+    std::vector<Pixel> found;
     for (const std::size_t i : pixels_) {
       const Colour& b = layer_.reference[i];
       const double squares = squared_difference(layer_.test[i], b);
       const double scale = channel_sum(b, square) + epsilon;
-      errors.push_back(ratio(squares, scale));
-      if (reference_.variance.empty()) continue;
-      const double noise = channel_sum(reference_.variance[i], [](double v) { return v; });
-      denoised.push_back(ratio(squares - noise, scale));
+      const double noise =
+          reference_.variance.empty() ? 0 : channel_sum(reference_.variance[i], [](double v) { return v; });
+      found.push_back({ratio(squares, scale), ratio(squares - noise, scale)});
     }
-    out.relmse = mean(errors);
-    std::vector<double> kept = sorted(errors);
-    kept.resize(kept.size() - kept.size() / 1000);
-    out.relmse_trimmed = mean(kept);
-    if (!denoised.empty()) out.relmse_denoised = mean(denoised);
+    std::ranges::stable_sort(found, {}, &Pixel::error);
+    const auto mean_of = [&](std::size_t count, double Pixel::*value) {
+      double sum = 0;
+      for (std::size_t i = 0; i < count; ++i) sum += found[i].*value;
+      return sum / static_cast<double>(count);
+    };
+    const std::size_t all = found.size(), kept = all - all / 1000;
+    out.relmse = mean_of(all, &Pixel::error);
+    out.relmse_trimmed = mean_of(kept, &Pixel::error);
+    if (reference_.variance.empty()) return;
+    out.relmse_denoised = mean_of(all, &Pixel::denoised);
+    out.relmse_trimmed_denoised = mean_of(kept, &Pixel::denoised);
   }
 
   void measure_bias(LayerResult& out) const {
@@ -192,6 +201,8 @@ std::span<const LayerMetric> layer_metrics() {
        [](const LayerResult& r) { return Value(r.relmse_trimmed); }},
       {{"relmse_denoised", "relmse_rgb less the reference's own noise", 0, Better::lower},
        [](const LayerResult& r) { return r.relmse_denoised; }},
+      {{"relmse_trimmed_denoised", "relmse_trimmed less the reference's own noise", 0, Better::lower},
+       [](const LayerResult& r) { return r.relmse_trimmed_denoised; }},
       {{"luminance_bias", "mean luminance of a / that of b", 1, Better::nearer},
        [](const LayerResult& r) { return Value(r.luminance_bias); }},
       {{"z_rms", "root mean square of the z-scores, largest of the channels", 0, Better::lower},

@@ -40,8 +40,8 @@ struct LayerResult {
   std::optional<Ssim> ssim;
 
   double relmse = 0, relmse_trimmed = 0;
-  std::optional<double> relmse_denoised;       // with a variance of the reference
-  double luminance_bias = 1;                   // mean of the test / mean of the reference
+  std::optional<double> relmse_denoised, relmse_trimmed_denoised;  // with a variance of the reference
+  double luminance_bias = 1;                                       // mean of the test / mean of the reference
   std::optional<double> luminance_bias_error;  // its standard error, with a variance of either
 
   struct Errors {
