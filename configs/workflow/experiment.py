@@ -74,9 +74,10 @@ def tool_options(tool, options):
     """(tool, options) whose options the stage has: of a pipeline those of each of its tools."""
     if options is None:
         return []
-    if tool != "render":
+    if tool in DRY_RUN:
         return [(tool, options)]
-    return [(key.replace("_", "-"), part) for key, part in options.items() if isinstance(part, dict)]
+    parts = [(key.replace("_", "-"), part) for key, part in options.items()]
+    return [(key, part) for key, part in parts if key in DRY_RUN and part is not None]
 
 
 def dry_run(tool, parameters, place, bin_dir):

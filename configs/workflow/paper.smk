@@ -16,13 +16,13 @@ rule paper:
     default_target: True
 
 
-rule render:
-    input: inputs("render")
-    output: directory("stages/render/{key}/frames"), "stages/render/{key}/report.json"
-    params: timing=timing("render"), arguments=arguments("render")
+rule frames:
+    input: inputs("frames")
+    output: directory("stages/frames/{key}/frames"), "stages/frames/{key}/report.json"
+    params: timing=timing("frames"), arguments=arguments("frames")
     threads: THREADS
     shell:
-        "mkdir -p {output[0]} && " + run("render") + "{input.scene} --pipeline {input.parameters} {params.arguments} "
+        "mkdir -p {output[0]} && " + run("render", stages="frames") + "{input.scene} --pipeline {input.parameters} {params.arguments} "
         "-o {output[0]}/%04d.exr"
 
 

@@ -140,7 +140,7 @@ def finish(axes, panel):
     if "label" in panel:
         axes.set_ylabel(panel["label"])
     if axes.get_legend_handles_labels()[1]:
-        axes.legend(frameon=False, fontsize=8)
+        axes.legend(frameon=False)
     axes.grid(True, which="both", linewidth=0.4, color="#d8d8d8")
     axes.set_axisbelow(True)
 
@@ -211,8 +211,9 @@ def draw(picture, data, target):
     rows = picture["rows"]
     columns = max(len(row["panels"]) for row in rows)
     aspect = picture.get("aspect", 9 / 16)
-    with plt.rc_context({"font.size": 9}):
-        figure = plt.figure(layout="constrained", figsize=(INCH * columns, (INCH * aspect + 0.3) * len(rows)))
+    size = 3 * max(columns, 3)  # of text, in points: what fills a page's width stays legible
+    with plt.rc_context({"font.size": size, "axes.titlesize": size, "legend.fontsize": size}):
+        figure = plt.figure(layout="constrained", figsize=(INCH * columns, (INCH * aspect + 0.03 * size) * len(rows)))
         grid = figure.add_gridspec(len(rows), columns)
         for line, row in enumerate(rows):
             drawing = Drawing(data, row)
@@ -220,7 +221,7 @@ def draw(picture, data, target):
             for axes, panel in zip(places, row["panels"]):
                 kind = panel_kind(panel)
                 getattr(drawing, kind)(axes, panel)
-                axes.set_title(fill(panel["title"], data.values), loc="left", fontsize=9)
+                axes.set_title(fill(panel["title"], data.values), loc="left")
                 if kind not in PLOTS:
                     axes.set_xticks([])
                     axes.set_yticks([])

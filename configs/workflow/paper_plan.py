@@ -122,15 +122,20 @@ class Sequences(Plan):
         del self.stages[stage_of(f"{folder}/frames")]["inputs"]["tool"]
         return f"{folder}/frames"
 
+    def made_by(self, tool, rule, *rest):
+        """A stage of another name than its tool's."""
+        folder = self.stage(rule, *rest)
+        self.stages[stage_of(f"{folder}/report.json")]["inputs"]["tool"] = f"tools/{tool}.sha256"
+        return folder
+
     def add_sequence(self, name, pipeline, truth):
         own = {"rsm_bake": self.sequences.get("rsm_bake", {}) | pipeline.get("rsm_bake", {})}
         options = {"$schema": "vsgltools/pipeline/1", **pipeline, **own}
         frames = f"0:{self.sequences['frames'] - 1}"
         arguments = ["--frames", frames, "--resolution", self.sequences["resolution"]]
-        folder = self.stage("render", [name], self.scene("sequence"), options, arguments, ("pipelines", name))
+        folder = self.made_by("render", "frames", [name], self.scene("sequence"), options, arguments, ("pipelines", name))
         images = f"{folder}/frames"
-        flicker = self.stage("flicker", [name], {"test": images, "reference": truth}, None, ["--frames", frames])
-        self.stages[stage_of(f"{flicker}/comparison.json")]["inputs"]["tool"] = "tools/compare.sha256"
+        flicker = self.made_by("compare", "flicker", [name], {"test": images, "reference": truth}, None, ["--frames", frames])
         return {"sequence": name, "frames": self.sequences["frames"], "images": images, "reference": truth, "stage": folder,
                 "comparison": f"{flicker}/comparison.json"}
 

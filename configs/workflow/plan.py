@@ -12,7 +12,7 @@ import shlex
 import jsonschema
 
 WITHOUT_DENSITY = ("tree", "texels", "two-vsgl")  # methods of vsgl-gen that follow none; the first is its default
-TIMED = ("rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade")  # that `repetitions` is for
+TIMED = ("rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "render")  # that `repetitions` is for
 SCHEMA = pathlib.Path(__file__).resolve().parents[1] / "schema" / "experiment.schema.json"
 
 
@@ -162,13 +162,25 @@ class Plan:
         arguments = ["--seed", str(seed), *frame_arguments(frame)]
         return self.stage("reference", label, inputs, options, arguments, origin) + "/reference.exr"
 
+    def render(self, scene, frame, pipeline, count, seed, origin):
+        """Image by `render`, of a pipeline that only this tool runs."""
+        bake = {"resolution": self.experiment["resolution"]} | pipeline.get("rsm_bake", self.experiment.get("rsm_bake", {}))
+        generation = pipeline.get("vsgl_gen", {}) | ({} if count is None else {"count": count})
+        options = {"$schema": "vsgltools/pipeline/1", **pipeline, "rsm_bake": bake, "vsgl_gen": generation}
+        arguments = ["--seed", str(seed), *frame_arguments(frame)]
+        folder = self.stage("render", [scene, at(frame), count, f"s{seed}"], self.scene(scene), options, arguments, origin)
+        return f"{folder}/image.exr", {"render": folder}
+
     def shade(self, scene, frame, pipeline, sweep, seed, origin):
         """Image by virtual lights, and the folders of the stages that make it."""
         n, error = sweep
+        if "progressive" in pipeline:
+            return self.render(scene, frame, pipeline, n, seed, origin)
         aimed = {} if error is None else {"error": error}
         def stage(tool, label, inputs, arguments=(), **further):
             key = tool.replace("-", "_")
-            return self.stage(tool, [scene, at(frame), *label], inputs, pipeline.get(key, {}) | further, arguments, (*origin, key))
+            options = {name: value for name, value in pipeline.get(key, {}).items() if name != "sphere_lights"} | further
+            return self.stage(tool, [scene, at(frame), *label], inputs, options, arguments, (*origin, key))
 
         def method(key, option="method"):
             return (pipeline.get(key) or {}).get(option)
@@ -179,7 +191,9 @@ class Plan:
         stages = {"rsm-bake": bake}
         count = {} if n is None else {"count": n}
         inputs = {"rsm": rsm}
-        if (method("vsgl_gen") or WITHOUT_DENSITY[0]) not in WITHOUT_DENSITY:
+        if method("vsgl_gen", "sphere_lights"):
+            inputs = self.scene(scene)
+        elif (method("vsgl_gen") or WITHOUT_DENSITY[0]) not in WITHOUT_DENSITY:
             stages["pdf-build"] = stage("pdf-build", [method("pdf_build")], {"rsm": rsm, "gbuffer": gbuffer})
             inputs["pdf"] = f"{stages['pdf-build']}/pdf.exr"
         stages["vsgl-gen"] = stage("vsgl-gen", [method("vsgl_gen"), n, f"s{seed}"], inputs, ["--seed", str(seed)], **count)
@@ -226,7 +240,7 @@ class Plan:
     def order(self, stages, first):
         """Of a variant's images the cheapest is made first, and after a warm-up run: so that shaders are compiled before times
         count."""
-        for tool in ("vsgl-gen", "ismap", "shade"):
+        for tool in ("vsgl-gen", "ismap", "shade", "render"):
             if tool not in stages:
                 continue
             stage, before = (self.stages[stage_of(f"{folder}/report.json")] for folder in (stages[tool], first[tool]))

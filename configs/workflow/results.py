@@ -6,7 +6,7 @@ import csv
 import json
 import pathlib
 
-STAGES = ["rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "reference"]
+STAGES = ["rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "render", "reference"]
 KEYS = ["scene", "frame", "variant", "n", "error", "seed"]
 
 

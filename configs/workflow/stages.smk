@@ -96,9 +96,13 @@ rule pdf_build:
 rule vsgl_gen:
     input: inputs("vsgl-gen")
     output: outputs("vsgl-gen", "lights.exr")
-    params: timing=timing("vsgl-gen"), arguments=arguments("vsgl-gen"), pdf=given("--pdf", "pdf")
+    params:
+        timing=timing("vsgl-gen"), arguments=arguments("vsgl-gen"), rsm=given("--rsm", "rsm"), pdf=given("--pdf", "pdf"),
+        spheres=given("--sphere-lights", "scene")
     threads: THREADS
-    shell: run("vsgl-gen") + "--rsm {input.rsm} {params.pdf} --config {input.parameters} {params.arguments} -o {output[0]}"
+    shell:
+        run("vsgl-gen") + "{params.rsm} {params.pdf} {params.spheres} --config {input.parameters} {params.arguments} "
+        "-o {output[0]}"
 
 
 rule ismap:
@@ -119,6 +123,14 @@ rule shade:
     shell:
         run("shade") + "--gbuffer {input.gbuffer} --lights {input.lights} {params.ism} --config {input.parameters} "
         "-o {output[0]}"
+
+
+rule render:
+    input: inputs("render")
+    output: outputs("render", "image.exr")
+    params: timing=timing("render"), arguments=arguments("render")
+    threads: THREADS
+    shell: run("render") + "{input.scene} --pipeline {input.parameters} {params.arguments} -o {output[0]}"
 
 
 rule reference:

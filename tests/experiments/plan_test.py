@@ -194,6 +194,22 @@ class Sharing(Files):
             if stage["folder"].startswith("stages/vsgl-gen/box-tree"):
                 self.assertNotIn("pdf", stage["inputs"])
 
+    def test_progressive_images_are_rendered(self):
+        pipeline = {"vsgl_gen": {"method": "vsl"}, "progressive": {"passes": 4}}
+        self.experiment |= {"variants": {"passes": {"pipeline": pipeline, "counts": [8, 16]}}, "decompositions": {}}
+        plan = self.plan()
+        self.assertEqual({row["image"].split("/")[1] for row in plan.rows}, {"render"})
+        options = [stage["options"] for name, stage in plan.stages.items() if name.startswith("render/box")]
+        self.assertEqual([part["vsgl_gen"]["count"] for part in options], [8, 8, 16, 16])
+        self.assertTrue(all(part["rsm_bake"] == {"resolution": "64x36"} for part in options))
+
+    def test_sphere_lights_are_of_the_scene(self):
+        pipeline = {"vsgl_gen": {"sphere_lights": True}, "ismap": None}
+        self.experiment |= {"variants": {"spheres": {"pipeline": pipeline}}, "decompositions": {}}
+        for name, stage in self.plan().stages.items():
+            if name.startswith("vsgl-gen/"):
+                self.assertEqual((set(stage["inputs"]) - {"meshes", "after"}, stage["options"]), ({"scene", "tool", "parameters"}, {}))
+
     def test_scene_files_are_inputs(self):
         bake = next(stage for name, stage in self.plan().stages.items() if name.startswith("rsm-bake/hall"))
         folder = self.path.resolve().parent
