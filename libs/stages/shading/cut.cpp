@@ -41,12 +41,13 @@ std::vector<std::uint8_t> all_seen(std::span<const std::uint8_t> kinds) {
   return shaded;
 }
 
-// Diffuse pixels from samples at half resolution, with an exact second pass where these differ too much.
-void shade_at_half(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds, CutPass& pass, bool skip,
-                   Image& image, Report& report) {
+// Diffuse pixels from samples at half resolution, with an exact second pass where these differ too much for
+// the error that the cut aims at.
+void shade_at_half(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds, double error, CutPass& pass,
+                   bool skip, Image& image, Report& report) {
   const HalfResolution half(gbuffer, kinds);
   shade_pixels(gbuffer, kinds, half.shaded(), pass, skip, image, report);
-  const std::vector<std::uint8_t> rejected = half.interpolate(image.diffuse);
+  const std::vector<std::uint8_t> rejected = half.interpolate(image.diffuse, error);
   shade_pixels(gbuffer, kinds, rejected, pass, skip, image, report);
   report.count("diffuse_exact_pixels", half.exact_pixels() + static_cast<std::size_t>(std::count(
                                                                  rejected.begin(), rejected.end(), 1)));
@@ -122,7 +123,7 @@ Indirect shade_cut(const GBuffer& gbuffer, const Lights& lights, const Cut& cut,
   CutPass pass(gbuffer, cut, clusters, params.skip, device);
   Image image(gbuffer.pixels.size());
   if (params.diffuse_scale == 2)
-    shade_at_half(gbuffer, kinds, pass, params.skip, image, report);
+    shade_at_half(gbuffer, kinds, cut.error, pass, params.skip, image, report);
   else
     shade_pixels(gbuffer, kinds, all_seen(kinds), pass, params.skip, image, report);
   report_counts(

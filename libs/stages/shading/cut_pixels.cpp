@@ -19,8 +19,9 @@ constexpr double kSmallestAgreement = 0.9;
 // Irradiance is nearly linear in the normal, so the pixel's own may differ by this much from the mean of its
 // samples'.
 constexpr double kLargestBend = 0.05;
-// Of irradiance around an interpolated pixel.
-constexpr double kLargestContrast = 0.25;
+// Of irradiance around an interpolated pixel, where the image's error may be kCoarse or more; below, its
+// square falls with the error, as interpolation errs by the square of the contrast.
+constexpr double kLargestContrast = 0.25, kCoarse = 0.1;
 
 std::uint8_t kind_of(const Surface& s) {
   if (s.id == interop::NO_INSTANCE) return kBackground;
@@ -129,7 +130,9 @@ double HalfResolution::contrast_around(std::uint32_t pixel, std::span<const inte
   return most > least ? most / least - 1 : 0;
 }
 
-std::vector<std::uint8_t> HalfResolution::interpolate(std::span<interop::vec3> irradiance) const {
+std::vector<std::uint8_t> HalfResolution::interpolate(std::span<interop::vec3> irradiance,
+                                                      double error) const {
+  const double largest_contrast = kLargestContrast * std::sqrt(std::min(error / kCoarse, 1.0));
   std::vector<std::uint8_t> rejected(irradiance.size());
 #pragma omp parallel for schedule(static)
   for (std::uint32_t i = 0; i < irradiance.size(); ++i) {
@@ -140,7 +143,7 @@ std::vector<std::uint8_t> HalfResolution::interpolate(std::span<interop::vec3> i
     for (int k = 0; k < stencil.count; ++k)
       sum += stencil.weight[k] * to_double(irradiance[stencil.sample[k]]);
     irradiance[i] = to_float(sum);
-    rejected[i] = contrast_around(i, irradiance) > kLargestContrast;
+    rejected[i] = contrast_around(i, irradiance) > largest_contrast;
   }
   return rejected;
 }

@@ -29,8 +29,8 @@ class HalfResolution {
   std::size_t exact_pixels() const { return exact_; }
 
   // Sets the irradiance of all pixels that are interpolated, but for those whose samples differ by more than
-  // kLargestContrast: these are marked in the result (1), to be shaded after all.
-  std::vector<std::uint8_t> interpolate(std::span<interop::vec3> irradiance) const;
+  // an image of that relative error allows: these are marked in the result (1), to be shaded after all.
+  std::vector<std::uint8_t> interpolate(std::span<interop::vec3> irradiance, double error) const;
 
  private:
   // Samples that surround a pixel, with their bilinear weights.

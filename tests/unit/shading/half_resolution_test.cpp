@@ -54,7 +54,8 @@ Indirect at_scale(int scale, const GBuffer& gbuffer, const Cut& cut, Report* rep
 
 TEST(HalfResolution, EqualsFullOnAPlane) {
   const GBuffer gbuffer = floor_of(flat);
-  const Cut cut = test::whole_cut(gbuffer, ceiling());
+  Cut cut = test::whole_cut(gbuffer, ceiling());
+  cut.error = 0.1;
   Report report;
   const Indirect half = at_scale(2, gbuffer, cut, &report), full = at_scale(1, gbuffer, cut);
   EXPECT_LT(test::difference(half.diffuse, full.diffuse), 1e-3);
@@ -63,9 +64,24 @@ TEST(HalfResolution, EqualsFullOnAPlane) {
             kWidth / 2 + kHeight / 2 + kWidth / 2 + kHeight / 2 - 1);
 }
 
+TEST(HalfResolution, InterpolatesLessWhereTheErrorIsSmaller) {
+  const GBuffer gbuffer = floor_of(flat);
+  Cut cut = test::whole_cut(gbuffer, ceiling());
+  double exact = 0;
+  for (const double error : {0.1, 1e-3, 0.0}) {
+    cut.error = error;
+    Report report;
+    at_scale(2, gbuffer, cut, &report);
+    const double found = report.to_json()["counts"]["diffuse_exact_pixels"];
+    EXPECT_GT(found, exact);
+    exact = found;
+  }
+}
+
 TEST(HalfResolution, DoesNotLeakAcrossAStep) {
   const GBuffer gbuffer = floor_of([](int x) { return x < 23 ? 0.0f : 0.4f; });
   Cut cut = test::whole_cut(gbuffer, ceiling());
+  cut.error = 0.1;
   // The upper side sees nothing.
   test::add_masks(cut, [&](std::size_t e, std::uint32_t x, std::uint32_t) {
     const std::size_t tile = e / ceiling().lights.size();
@@ -80,6 +96,7 @@ TEST(HalfResolution, DoesNotLeakAcrossAStep) {
 TEST(HalfResolution, DoesNotLeakAcrossTheEdgeOfAShadow) {
   const GBuffer gbuffer = floor_of(flat);
   Cut cut = test::whole_cut(gbuffer, ceiling());
+  cut.error = 0.1;
   test::add_masks(cut, [&](std::size_t e, std::uint32_t x, std::uint32_t) {
     const std::size_t tile = e / ceiling().lights.size();
     return static_cast<int>(tile) % cut.columns() * 16 + static_cast<int>(x) < 23;
@@ -92,7 +109,8 @@ TEST(HalfResolution, ShadesBentNormalsExactly) {
   test::Uniform uniform;
   for (interop::Surface& s : gbuffer.pixels)
     s.shading_normal = test::to_float(normalise(Vec3{0, 0, 1} + 0.5 * uniform.vector()));
-  const Cut cut = test::whole_cut(gbuffer, ceiling());
+  Cut cut = test::whole_cut(gbuffer, ceiling());
+  cut.error = 0.1;
   Report report;
   EXPECT_LT(test::difference(at_scale(2, gbuffer, cut, &report).diffuse, at_scale(1, gbuffer, cut).diffuse),
             0.06);
