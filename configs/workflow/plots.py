@@ -14,7 +14,7 @@ import matplotlib.ticker  # noqa: E402
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#7A5230"]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 LABELS = {"relmse_rgb": "relMSE", "relmse_denoised": "relMSE, less the reference's noise", "relmse_trimmed": "relMSE, trimmed",
-          "flip": "FLIP", "ssim": "SSIM", "luminance_bias": "mean over the reference's", "time_s": "time without files, s",
+          "relmse_trimmed_denoised": "relMSE, trimmed, less the reference's noise", "flip": "FLIP", "ssim": "SSIM", "luminance_bias": "mean over the reference's", "time_s": "time without files, s",
           "n": "lights, or samples a pixel"}
 STYLE = {"svg.hashsalt": "vsgltools", "svg.fonttype": "path", "font.size": 9, "axes.grid": True, "axes.grid.which": "both",
          "grid.linewidth": 0.4, "grid.color": "#d8d8d8", "axes.axisbelow": True, "axes.spines.top": False,
