@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  fs::path rsm, pdf, output, info;
+  fs::path rsm, pdf, previous, output, info;
   bool dump = false;
   vsgl::LightsParams params;
 };
@@ -19,10 +19,19 @@ struct Arguments {
 void declare(vsgl::Tool& tool, Arguments& a) {
   tool.input("--rsm", a.rsm, "reflective shadow map to cluster or sample")->required();
   tool.input("--pdf", a.pdf, "density of the samples over its texels (methods that sample)");
+  tool.input("--previous", a.previous, "lights of the frame before, whose chains go on (method metropolis)");
   tool.output("-o,--output", a.output, "lights to write")->required();
   CLI::Option* info = tool.output("--info", a.info, "JSON with statistics of the lights");
   tool.app().add_flag("--dump", a.dump, "list the lights themselves in the JSON")->needs(info);
   vsgl::add_options(tool.app(), a.params);
+}
+
+vsgl::Chains read_chains(const fs::path& path) {
+  vsgl::Chains chains = vsgl::read_lights(path).chains;
+  if (chains.states.empty())
+    throw vsgl::Error(vsgl::ErrorCode::missing_part,
+                      path.string() + ": has no chains to go on; make it with --method metropolis");
+  return chains;
 }
 
 vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
@@ -33,6 +42,8 @@ vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl:
   const vsgl::Rsm rsm = read("read rsm", vsgl::read_rsm, a.rsm);
   std::optional<vsgl::Pdf> pdf;
   if (!a.pdf.empty()) pdf = read("read pdf", vsgl::read_pdf, a.pdf);
+  vsgl::Chains previous;
+  if (!a.previous.empty()) a.params.previous = &(previous = read("read previous", read_chains, a.previous));
   a.params.seed = tool.common().seed;
 
   std::optional<vsgl::gpu::Device> device;

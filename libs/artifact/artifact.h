@@ -14,6 +14,7 @@
 
 #include "artifact/pyramid.h"
 #include "base/provenance.h"
+#include "interop/chain.h"
 #include "interop/cluster.h"
 #include "interop/light.h"
 #include "interop/model.h"
@@ -74,6 +75,12 @@ struct Pdf {
 void write(const std::filesystem::path& path, const Pdf& pdf, const Provenance& provenance);
 Pdf read_pdf(const std::filesystem::path& path);
 
+// Markov chains that sample an RSM (vsgl-gen --method metropolis) and go on in the next frame.
+struct Chains {
+  std::vector<interop::Chain> states;
+  int steps = 0;  // mutations of each, so far
+};
+
 // Virtual lights, or a tree of them: all nodes, level by level from the root. `anchor` as in the RSM.
 struct Lights {
   std::string method;  // vpl | fis-2014 | fis-2016 | texels | tree
@@ -82,7 +89,8 @@ struct Lights {
   int requested = 0;  // samples drawn; lights without power are dropped
   std::vector<interop::Light> lights;
   std::vector<std::uint32_t>
-      levels;  // of a tree: first light of each level, and the number of lights; empty: a list
+      levels;     // of a tree: first light of each level, and the number of lights; empty: a list
+  Chains chains;  // of the method metropolis
 
   bool has_specular() const;
   bool is_tree() const { return !levels.empty(); }

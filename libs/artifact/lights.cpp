@@ -36,6 +36,14 @@ constexpr Field kFields[] = {
     {"children", "I", offsetof(Light, children)},
 };
 
+using interop::Chain;
+constexpr Field kChainFields[] = {
+    {"x", "I", offsetof(Chain, x)},
+    {"y", "I", offsetof(Chain, y)},
+    {"layer", "I", offsetof(Chain, layer)},
+};
+constexpr const char *kLightsPart = "lights", *kChainsPart = "chains";  // of a file with both
+
 // Rows of kRow lights, uncompressed: a row a light or zip would take over ten times longer to write
 // (docs/sampling.md). An EXR has at least one pixel.
 constexpr std::size_t kRow = 1024;
@@ -86,6 +94,27 @@ void check_list(const ExrFile& file, const ExrPart& part, const std::vector<Ligh
     if (lights[i].children != 0) fail_at(file, part, "children.I", i, "children in a list");
 }
 
+ExrPart chains_part(const Chains& chains, const Provenance& provenance) {
+  ExrPart part = make_part(kChainsPart, "lights", provenance);
+  part.attributes["chains.count"] = static_cast<int>(chains.states.size());
+  part.attributes["chains.steps"] = chains.steps;
+  const auto [width, height] = image_size(chains.states.size());
+  part.levels = {pack(kChainFields, Structs(std::span(chains.states)), width, height, false)};
+  return part;
+}
+
+Chains read_chains(const ExrFile& file, const ExrPart& part) {
+  constexpr int kLargest = std::numeric_limits<int>::max();
+  const int count = int_in(file, part, "chains.count", 1, kLargest);
+  const auto [width, height] = image_size(static_cast<std::size_t>(count));
+  Chains out;
+  out.steps = int_in(file, part, "chains.steps", 0, kLargest);
+  out.states.resize(static_cast<std::size_t>(part.width()) * static_cast<std::size_t>(part.height()));
+  unpack(kChainFields, Structs(std::span(out.states)), file, part, 0, width, height, false);
+  out.states.resize(static_cast<std::size_t>(count));
+  return out;
+}
+
 }  // namespace
 
 // A cluster may hold specular power although the point that represents it has no specular lobe.
@@ -114,12 +143,18 @@ void write(const std::filesystem::path& path, const Lights& lights, const Proven
   part.attributes["lights.tree"] = lights.is_tree() ? 1 : 0;
   const auto [width, height] = image_size(lights.lights.size());
   part.levels = {pack(kFields, Structs(std::span(lights.lights)), width, height, lights.has_specular())};
-  write_parts(path, {std::move(part)});
+  std::vector<ExrPart> parts{std::move(part)};
+  if (!lights.chains.states.empty()) {
+    parts.front().name = kLightsPart;
+    parts.push_back(chains_part(lights.chains, provenance));
+  }
+  write_parts(path, std::move(parts));
 }
 
 Lights read_lights(const std::filesystem::path& path) {
   const ExrFile file = read_artifact(path, "lights");
-  const ExrPart& part = only_part(file);
+  const bool with_chains = file.parts.size() == 2 && file.parts.back().name == kChainsPart;
+  const ExrPart& part = with_chains ? file.part(kLightsPart) : only_part(file);
   Lights out;
   out.method = string_attribute(file, part, "lights.method");
   out.anchor = finite_vec3(file, part, "anchor");
@@ -140,6 +175,7 @@ Lights read_lights(const std::filesystem::path& path) {
   } else {
     check_list(file, part, out.lights);
   }
+  if (with_chains) out.chains = read_chains(file, file.part(kChainsPart));
   return out;
 }
 

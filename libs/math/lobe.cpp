@@ -1,6 +1,10 @@
 #include "math/lobe.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
 
 namespace vsgl {
 namespace {
@@ -49,6 +53,44 @@ LobeMoments toksvig_encode(Vec3 axis, double sharpness) {
 SgLobe toksvig_decode(const LobeMoments& moments) {
   const double r = length(moments.mean);
   return lobe_of(moments.mean, moments.deficit > 0 ? r * (1 + r) / moments.deficit : sharpness_max);
+}
+
+// Viete's solution of r^3 - l r^2 - 3 r + l = 0 with r = t + l / 3: t^3 - 3 m^2 t - 2 (l / 3)^3 = 0,
+// m^2 = 1 + (l / 3)^2, has the roots 2 m cos((acos((l / (3 m))^3) - 2 pi k) / 3).
+LobeMoments laurijssen_encode(Vec3 axis, double sharpness) {
+  const double third = sharpness / 3, m = std::sqrt(1 + third * third), c = third / m, c2 = c * c;
+  const double angle = std::atan2(std::sqrt(1 + c2 + c2 * c2) / m, c * c2);  // arc cosine of c^3
+  const double r = third + 2 * m * std::cos((angle - 2 * std::numbers::pi) / 3);
+  return moments_of(axis, 1 - std::clamp(r, 0.0, 1.0));
+}
+
+SgLobe laurijssen_decode(const LobeMoments& moments) {
+  return lobe_decode({moments.mean, 1 - std::min(dot(moments.mean, moments.mean), 1.0)});
+}
+
+LobeMoments lobe_encode_by(std::uint32_t filter, Vec3 axis, double sharpness) {
+  if (filter == interop::LOBE_TOKSVIG) return toksvig_encode(axis, sharpness);
+  if (filter == interop::LOBE_LAURIJSSEN) return laurijssen_encode(axis, sharpness);
+  return lobe_encode(axis, sharpness);
+}
+
+SgLobe lobe_decode_by(std::uint32_t filter, const LobeMoments& moments) {
+  if (filter == interop::LOBE_TOKSVIG) return toksvig_decode(moments);
+  if (filter == interop::LOBE_LAURIJSSEN) return laurijssen_decode(moments);
+  return lobe_decode(moments);
+}
+
+std::vector<std::string> lobe_filter_names() {
+  return {"banerjee", "toksvig", "laurijssen", "none"};  // in the order of LOBE_*
+}
+
+std::uint32_t lobe_filter_kind(const std::string& name) {
+  const auto names = lobe_filter_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw Error(ErrorCode::bad_value,
+                "lobe_filter: \"" + name + "\" is none of banerjee, toksvig, laurijssen, none");
+  return static_cast<std::uint32_t>(found - names.begin());
 }
 
 }  // namespace vsgl

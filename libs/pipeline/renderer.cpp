@@ -53,8 +53,10 @@ RenderedFrame Renderer::render(scene::Scene scene) {
     run(frame, "pdf-build",
         [&] { frame.pdf = build_pdf(frame.rsm, &frame.gbuffer, pipeline_.pdf_build, device_, report_); });
   run(frame, "vsgl-gen", [&] {
+    pipeline_.vsgl_gen.previous = chains_.states.empty() ? nullptr : &chains_;
     frame.lights =
         generate_lights(frame.rsm, frame.pdf ? &*frame.pdf : nullptr, pipeline_.vsgl_gen, &device_, report_);
+    chains_ = frame.lights.chains;
   });
   if (pipeline_.ismap)
     run(frame, "ismap", [&] {

@@ -33,7 +33,7 @@ struct RenderedFrame {
 
 // Runs the stages of a pipeline on one device. Between frames it keeps what does not change: compiled
 // shaders, geometry and textures. A frame's artifacts are the bytes that the separate tools make, whatever
-// was rendered before.
+// was rendered before; but lights by Markov chains go on from the frame before.
 class Renderer {
  public:
   // `direct`: the image also holds the light sources' own light. Unless rays are to find
@@ -53,6 +53,7 @@ class Renderer {
 
   gpu::Device& device_;
   Pipeline pipeline_;
+  Chains chains_;  // of the last frame's lights
   bool direct_;
   scene::Scene scene_;
   Report report_;               // of the stage that is running

@@ -4,15 +4,29 @@
 
 #include "gpu/address.h"
 #include "math/pyramid.h"
+#include "spirv/pyramid/encode_lobes.comp.glsl.h"
 #include "spirv/pyramid/merge.comp.glsl.h"
 
 namespace vsgl {
 namespace {
 
-constexpr std::uint32_t group_side = 8;
+constexpr std::uint32_t group_side = 8, encode_group = 64;
+
+struct EncodePush {
+  interop::uvec2 texels_at;
+  std::uint32_t count, lobe_filter;
+};
 
 std::size_t texels(int side) {
   return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+}
+
+// `size`: texels a side of the coarser level.
+void merge_step(const gpu::ComputePipeline& pipeline, interop::uvec2 fine_at, interop::uvec2 coarse_at,
+                int size, gpu::Commands& commands) {
+  const interop::MergePush push{fine_at, coarse_at, static_cast<std::uint32_t>(size)};
+  const std::uint32_t groups = gpu::groups_for(push.size, group_side);
+  commands.dispatch("pyramid", pipeline, {}, push, {groups, groups, 1});
 }
 
 }  // namespace
@@ -24,11 +38,9 @@ MomentPyramid::MomentPyramid(gpu::Device& device, int size)
 }
 
 void MomentPyramid::merge(gpu::Commands& commands) const {
-  for (std::size_t level = 1; level < levels_.size(); ++level) {
-    const auto side = static_cast<std::uint32_t>(size_ >> level), groups = gpu::groups_for(side, group_side);
-    const interop::MergePush push{address_of(levels_[level - 1]), address_of(levels_[level]), side};
-    commands.dispatch("pyramid", pipeline_, {}, push, {groups, groups, 1});
-  }
+  for (std::size_t level = 1; level < levels_.size(); ++level)
+    merge_step(pipeline_, address_of(levels_[level - 1]), address_of(levels_[level]), size_ >> level,
+               commands);
 }
 
 std::vector<interop::Moments> MomentPyramid::download() {
@@ -38,6 +50,22 @@ std::vector<interop::Moments> MomentPyramid::download() {
     levels_[static_cast<std::size_t>(level)].read(
         0, std::as_writable_bytes(all.subspan(pyramid_offset(size_, level), texels(size_ >> level))));
   return pyramid;
+}
+
+void encode_lobes(const gpu::Buffer& moments, std::size_t texels, std::uint32_t lobe_filter,
+                  gpu::Device& device, gpu::Commands& commands) {
+  const EncodePush push{address_of(moments), static_cast<std::uint32_t>(texels), lobe_filter};
+  const gpu::ComputePipeline pipeline(device, encode_lobes_comp_spv, {}, sizeof push);
+  commands.dispatch("lobes", pipeline, {}, push, {gpu::groups_for(push.count, encode_group), 1, 1});
+}
+
+void merge_levels(const gpu::Buffer& pyramid, int size, gpu::Device& device, gpu::Commands& commands) {
+  const gpu::ComputePipeline pipeline(device, merge_comp_spv, {}, sizeof(interop::MergePush));
+  const auto level_at = [&](int level) {
+    return address_of(pyramid, pyramid_offset(size, level) * sizeof(interop::Moments));
+  };
+  for (int level = 1; level < pyramid_levels(size); ++level)
+    merge_step(pipeline, level_at(level - 1), level_at(level), size >> level, commands);
 }
 
 }  // namespace vsgl

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "gpu/buffer.h"
@@ -26,5 +27,12 @@ class MomentPyramid {
   gpu::ComputePipeline pipeline_;
   std::vector<gpu::Buffer> levels_;
 };
+
+// Appends what encodes the lobes of `texels` of an RSM, the finest level of its pyramid, anew by a map
+// LOBE_*.
+void encode_lobes(const gpu::Buffer& moments, std::size_t texels, std::uint32_t lobe_filter,
+                  gpu::Device& device, gpu::Commands& commands);
+// Appends the steps that make all other levels of `pyramid`, in the layout of math/pyramid.h, anew.
+void merge_levels(const gpu::Buffer& pyramid, int size, gpu::Device& device, gpu::Commands& commands);
 
 }  // namespace vsgl

@@ -2,10 +2,12 @@
 #include <cmath>
 
 #include "math/kernel_size.h"
+#include "math/metropolis.h"
 #include "math/sampling.h"
 #include "shader_library.h"
 #include "spirv/test/library/hash.comp.glsl.h"
 #include "spirv/test/library/kernel_size.comp.glsl.h"
+#include "spirv/test/library/metropolis.comp.glsl.h"
 #include "spirv/test/library/sampling.comp.glsl.h"
 #include "spirv/test/library/taps.comp.glsl.h"
 
@@ -222,10 +224,58 @@ LibraryFile kernel_size() {
           appendix()};
 }
 
+interop::Chain take_chain(Arguments& a) {
+  const std::uint32_t x = a.take_word(), y = a.take_word();
+  return {x, y, a.take_word()};
+}
+Values values_of(const interop::Chain& chain) {
+  return Values() << chain.x << chain.y << chain.layer;
+}
+
+LibraryFile metropolis() {
+  const auto propose = [](Arguments& a) {
+    const interop::Chain chain = take_chain(a);
+    const std::uint32_t index = a.take_word(), step = a.take_word(), low = a.take_word();
+    const std::uint64_t seed = low | std::uint64_t{a.take_word()} << 32;
+    const float large_step = a.take_float();
+    const std::uint32_t layers_there = a.take_word();
+    const Proposal next =
+        chain_propose(chain, index, step, seed, large_step, layers_there, static_cast<int>(a.take_word()));
+    return values_of(next.chain) << static_cast<double>(next.threshold);
+  };
+  const auto accepts = [](Arguments& a) {
+    const float p = a.take_float(), proposed = a.take_float();
+    return Values() << (chain_accepts(p, proposed, a.take_float()) ? 1u : 0u);
+  };
+  const auto place = [](Arguments& a) {
+    const interop::Chain chain = take_chain(a);
+    const int level = static_cast<int>(a.take_word());
+    const auto texel = chain_texel(chain, level);
+    const auto at = chain_point(chain, level);
+    const interop::Chain again = chain_at(chain.layer, texel, at, level);
+    return Values() << texel[0] << texel[1] << at[0] << at[1] << again.x << again.y << again.layer;
+  };
+  const std::vector<Row> chains = combinations(
+                             {words({0, 0x12345678, 0xffffffff}), words({7, 0x80000000}), words({0, 5})}),
+                         tops = words({0, 3, 9, 12});
+  return {"metropolis",
+          metropolis_comp_spv,
+          {{"chain_propose",
+            combinations({chains, words({0, 1023}), words({0, 77}), words({3}), words({0, 9}),
+                          numbers({0, 0.3, 1}), words({1, 6}), tops}),
+            propose,
+            {}},
+           {"chain_accepts",
+            combinations({numbers({0, 0.5, 3}), numbers({0, 0.5, 3}), numbers({0, 0.1, 0.999})}),
+            accepts,
+            {}},
+           {"chain_texel", combinations({chains, tops}), place, {}}}};
+}
+
 }  // namespace
 
 std::vector<LibraryFile> sampling_files() {
-  return {taps(), hash(), sampling(), kernel_size()};
+  return {taps(), hash(), sampling(), kernel_size(), metropolis()};
 }
 
 }  // namespace vsgl::test

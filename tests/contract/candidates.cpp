@@ -81,7 +81,7 @@ Lights sample_lights(gpu::Device& device, const std::string& method) {
 
 void check_lights(gpu::Device&, const std::filesystem::path& path) {
   const Lights lights = read_lights(path);
-  EXPECT_GT(lights.lights.size(), 100u);
+  EXPECT_GT(lights.lights.size(), lights.method == "two-vsgl" ? 1u : 100u);
   EXPECT_NEAR(emitted_power(lights) / reflected_power(rsm()), 1, 0.1);
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../unit/lights/densities.h"
+#include "../unit/lights/chi_square.h"
 #include "../unit/synthetic_room.h"
 #include "pyramid/kernels.h"
 #include "stages/lights/lights.h"
@@ -33,34 +33,11 @@ std::vector<int> count_samples(const TestDensity& density, std::uint32_t points,
   return counts;
 }
 
-struct ChiSquare {
-  double statistic = 0;
-  double z = 0;  // its normal score, by Wilson and Hilferty's cube root
-};
-
-// Against `density`; texels of fewer than 5 expected samples are pooled in reading order.
-ChiSquare chi_square(const std::vector<int>& counts, const TestDensity& density) {
-  double samples = 0;
-  for (int n : counts) samples += n;
-  ChiSquare out;
-  double expected = 0, observed = 0, cells = 0;
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    expected += samples * static_cast<double>(density.pyramid[k]) / static_cast<double>(counts.size());
-    observed += counts[k];
-    if (expected < 5) continue;
-    out.statistic += std::pow(observed - expected, 2) / expected;
-    cells += 1;
-    expected = observed = 0;
-  }
-  const double freedom = cells - 1, part = 2 / (9 * freedom);
-  out.z = (std::cbrt(out.statistic / freedom) - (1 - part)) / std::sqrt(part);
-  return out;
-}
-
 TEST(Sampling, RandomPointsPassTheChiSquareTest) {
   for (const TestDensity& density : test::all_densities(128))
     for (std::uint64_t seed : {1, 2, 3}) {
-      const ChiSquare test = chi_square(count_samples(density, interop::POINTS_RANDOM, seed), density);
+      const test::ChiSquare test =
+          test::chi_square(count_samples(density, interop::POINTS_RANDOM, seed), density);
       EXPECT_LT(std::abs(test.z), 4) << density.name;  // two-sided 6e-5
     }
 }
@@ -69,13 +46,13 @@ TEST(Sampling, TheTestNoticesADensityWrongByATenth) {
   const TestDensity density = test::smooth_density(128);
   const TestDensity wrong = test::make_density(
       "wrong", 128, [&](int i, int j) { return density.view().at(0, i, j) * (i < 64 ? 1.1 : 0.9); });
-  EXPECT_GT(chi_square(count_samples(density, interop::POINTS_RANDOM, 1), wrong).z, 4);
+  EXPECT_GT(test::chi_square(count_samples(density, interop::POINTS_RANDOM, 1), wrong).z, 4);
 }
 
 TEST(Sampling, LatticesAreStratified) {
   for (std::uint32_t points : {interop::POINTS_LATTICE, interop::POINTS_FIBONACCI})
     for (const TestDensity& density : test::all_densities(128))
-      EXPECT_LT(chi_square(count_samples(density, points, 1), density).z, -20) << density.name;
+      EXPECT_LT(test::chi_square(count_samples(density, points, 1), density).z, -20) << density.name;
 }
 
 // Mean over independent seeds within 4 standard errors.

@@ -122,6 +122,7 @@ ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& 
                       {"kernel_scale", params.kernel_scale},
                       {"kernel_solver", params.kernel_solver},
                       {"power_rule", params.power},
+                      {"lobe_filter", params.lobe_filter},
                       {"seed", params.seed},
                       {"anchor_m", to_array(lights.anchor)},
                       {"scene_radius_m", lights.scene_radius},
@@ -135,6 +136,8 @@ ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& 
     out["variance_m2"] = range_of(lights, &interop::Light::variance);
   }
   if (lights.is_tree()) out["tree"] = tree_statistics(lights);
+  if (!lights.chains.states.empty())
+    out["chains"] = {{"count", lights.chains.states.size()}, {"steps", lights.chains.steps}};
   if (dump) {
     out["lights"] = ordered_json::array();
     for (const interop::Light& light : lights.lights) out["lights"].push_back(to_json(light));

@@ -1,21 +1,34 @@
 #include "stages/lights/filtered.h"
 
+#include "math/interop_vec.h"
 #include "math/light_source.h"
-#include "pyramid/kernels.h"
+#include "math/lobe.h"
 #include "stages/lights/methods.h"
 
 namespace vsgl {
 namespace {
 
-interop::vec3 to_float(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+using interop::vec3;
+
+double luminance_of(vec3 c) {
+  return luminance(to_double(c));
 }
-Vec3 to_double(interop::vec3 v) {
-  return {v.x, v.y, v.z};
+vec3 scaled(vec3 c, float s) {
+  return {c.x * s, c.y * s, c.z * s};
 }
 
-// Makes the texel under the kernel's centre the light's representative. A cluster whose normals cancel takes
-// the texel's normal.
+// Luminance of all lights' power over that of all texels.
+double power_ratio(const Rsm& rsm, const std::vector<interop::Light>& lights) {
+  double emitted = 0, reflected = 0;
+  for (const interop::Light& light : lights)
+    emitted += luminance_of(light.power_diffuse) + luminance_of(light.power_specular);
+  for (const RsmLayer& layer : rsm.layers)
+    reflected += static_cast<double>(layer.surface.size()) * static_cast<double>(layer.pyramid.back().weight);
+  return reflected > 0 ? emitted / reflected : 1;
+}
+
+}  // namespace
+
 void represent(interop::Light& light, const RsmLayer& layer) {
   const interop::Surface& surface = layer.surface[light.texel];
   light.origin = surface.position;
@@ -26,27 +39,50 @@ void represent(interop::Light& light, const RsmLayer& layer) {
   if (to_double(light.normal) == Vec3{}) light.normal = surface.normal;
 }
 
-}  // namespace
+std::uint32_t share_rule(const LightsParams& params) {
+  return params.kernel_solver == "newton" ? interop::KERNEL_NEWTON : interop::KERNEL_BISECTION;
+}
+
+KernelParams kernel_params(const LightsParams& params, std::uint32_t rule) {
+  KernelParams out;
+  out.count = static_cast<std::uint32_t>(params.count);
+  out.points = point_set_kind(params.points);
+  out.rule = rule;
+  out.scale = params.kernel_scale;
+  out.seed = params.seed;
+  return out;
+}
+
+std::vector<DensityPyramid> densities_of(const Pdf& pdf) {
+  std::vector<DensityPyramid> densities;
+  for (const Pdf::Layer& layer : pdf.layers) densities.push_back({pdf.size, layer.pyramid});
+  return densities;
+}
+
+void conserve_power(const Rsm& rsm, const LightsParams& params, std::vector<interop::Light>& lights,
+                    Report& report) {
+  const double ratio = power_ratio(rsm, lights);
+  report.count("power_ratio_of_paper", ratio);
+  if (params.power == "paper" || ratio <= 0) return;
+  for (interop::Light& light : lights) {
+    light.power_diffuse = scaled(light.power_diffuse, static_cast<float>(1 / ratio));
+    light.power_specular = scaled(light.power_specular, static_cast<float>(1 / ratio));
+  }
+}
 
 std::vector<interop::Light> sample_lights(const Rsm& rsm, const Pdf& pdf, const LightsParams& params,
                                           std::uint32_t rule, gpu::Device& device, Report& report) {
-  KernelParams kernel_params;
-  kernel_params.count = static_cast<std::uint32_t>(params.count);
-  kernel_params.points = point_set_kind(params.points);
-  kernel_params.rule = rule;
-  kernel_params.scale = params.kernel_scale;
-  kernel_params.seed = params.seed;
-  std::vector<DensityPyramid> densities;
-  for (const Pdf::Layer& layer : pdf.layers) densities.push_back({pdf.size, layer.pyramid});
-  return filter_lights(rsm, draw_kernels(densities, kernel_params, device, report), device, report);
+  return filter_lights(rsm, draw_kernels(densities_of(pdf), kernel_params(params, rule), device, report),
+                       params, device, report);
 }
 
 std::vector<interop::Light> filter_lights(const Rsm& rsm, std::span<const interop::Kernel> kernels,
-                                          gpu::Device& device, Report& report) {
+                                          const LightsParams& params, gpu::Device& device, Report& report) {
   std::vector<std::span<const interop::Moments>> moments;
   for (const RsmLayer& layer : rsm.layers) moments.emplace_back(layer.pyramid);
   const double deviation = footprint_floor * rsm.scene_radius;
-  auto lights = filter_moments(kernels, moments, rsm.size, deviation * deviation, device, report);
+  auto lights = filter_moments(kernels, moments, rsm.size, deviation * deviation, device, report,
+                               lobe_filter_kind(params.lobe_filter));
   for (interop::Light& light : lights) represent(light, rsm.layers[light.layer]);
   return lights;
 }

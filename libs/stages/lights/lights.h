@@ -14,14 +14,20 @@
 
 namespace vsgl {
 
+inline constexpr int max_mutations = 100000;  // of a chain, a frame
+
 struct LightsParams {
   std::string method = "tree";  // one of lights_methods()
-  int count = 1024;                 // samples, 1..1048576
+  int count = 1024;             // samples, 1..1048576
   double kernel_scale = 1;  // K > 0: kernels hold K / count of the samples; power is not affected in fis-2016
   std::string kernel_solver = "newton";  // fis-2016: newton (exact) | bisection (12 steps, as printed)
   std::string power = "conserved";       // fis-2016: conserved (adds up to the RSM's) | paper (as printed)
   std::string points = "lattice";        // lattice | fibonacci | random
-  int level = -1;  // tree: -1, all of it; 0..64, a list of that level's nodes and of the leaves above it
+  std::string lobe_filter = "banerjee";  // one of lobe_filter_names(): how lobes are averaged
+  int level = -1;     // tree: -1, all of it; 0..64, a list of that level's nodes and of the leaves above it
+  int mutations = 1;  // metropolis: of each chain, from frame to frame, 0..100000
+  double large_step = 1;             // metropolis: probability that a mutation goes anywhere, 0..1
+  const Chains* previous = nullptr;  // metropolis: what the frame before left; none: chains begin anew
   std::uint64_t seed = 0;
 };
 
@@ -36,10 +42,11 @@ Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& param
 // lights.
 nlohmann::ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& params, bool dump);
 
-// What a method makes: a list, or a tree with its levels (see Lights).
+// What a method makes: a list, or a tree with its levels (see Lights), and the chains that sampled it.
 struct LightSet {
   std::vector<interop::Light> lights;
   std::vector<std::uint32_t> levels;
+  Chains chains = {};
 };
 
 // A way to generate lights. `run` may assume checked parameters and, where it needs a density, one that is

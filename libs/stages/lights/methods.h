@@ -18,7 +18,9 @@ inline bool has_power(const interop::Light& light) {
 LightSet generate_vpl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_fis_2014(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_fis_2016(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+LightSet generate_metropolis(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_texels(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+LightSet generate_two_vsgl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_tree(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 
 }  // namespace vsgl

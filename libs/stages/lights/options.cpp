@@ -1,6 +1,7 @@
 #include "stages/lights/options.h"
 
 #include "base/methods.h"
+#include "math/lobe.h"
 #include "math/sampling.h"
 
 namespace vsgl {
@@ -22,6 +23,15 @@ void add_options(CLI::App& app, LightsParams& params) {
   app.add_option("--points", params.points,
                  "sample points: lattice of a searched generator, fibonacci, or random")
       ->check(CLI::IsMember(point_set_names()));
+  app.add_option("--lobe-filter", params.lobe_filter,
+                 "how a mean direction's length becomes a lobe's sharpness; none: the sampled texel's lobes")
+      ->check(CLI::IsMember(lobe_filter_names()));
+  app.add_option("--mutations", params.mutations,
+                 "metropolis: of each chain, since the frame before (a first frame has 64)")
+      ->check(CLI::Range(0, max_mutations));
+  app.add_option("--large-step", params.large_step,
+                 "metropolis: probability that a mutation goes anywhere, and not just a few texels")
+      ->check(CLI::Range(0.0, 1.0));
   app.add_option(
          "--level", params.level,
          "tree: -1, all of it; else a plain list of this level's nodes (0: the root) and the leaves above")

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/find_method.h"
+#include "math/lobe.h"
 #include "math/sampling.h"
 #include "stages/lights/lights.h"
 #include "stages/lights/methods.h"
@@ -24,7 +25,15 @@ void check_params(const LightsParams& params) {
   if (params.level < -1 || params.level > 64)
     throw Error(ErrorCode::out_of_range,
                 "level: " + std::to_string(params.level) + " is outside -1..64; -1 takes the whole tree");
+  if (params.mutations < 0 || params.mutations > max_mutations)
+    throw Error(ErrorCode::out_of_range, "mutations: " + std::to_string(params.mutations) +
+                                             " is outside 0.." + std::to_string(max_mutations) +
+                                             "; 1 a frame is usual");
+  if (!(params.large_step >= 0 && params.large_step <= 1))
+    throw Error(ErrorCode::out_of_range,
+                "large_step: " + std::to_string(params.large_step) + " is no probability; give 0..1");
   point_set_kind(params.points);
+  lobe_filter_kind(params.lobe_filter);
 }
 
 // The density must have been built from an RSM of the same layers.
@@ -55,10 +64,17 @@ const std::vector<LightsMethod>& lights_methods() {
       {.name = "fis-2016",
        .summary = "kernels that hold equal shares of the samples",
        .run = generate_fis_2016},
+      {.name = "metropolis",
+       .summary = "as fis-2016, about Markov chains that go on from frame to frame",
+       .run = generate_metropolis},
       {.name = "texels",
        .summary = "every texel that reflects, neither sampled nor filtered",
        .needs_pdf = false,
        .run = generate_texels},
+      {.name = "two-vsgl",
+       .summary = "all texels as one diffuse and one specular light",
+       .needs_pdf = false,
+       .run = generate_two_vsgl},
       {.name = "tree",
        .summary = "every texel that reflects, and clusters of them level by level up to one of all",
        .needs_pdf = false,
@@ -91,6 +107,7 @@ Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& param
     LightSet set = method.run(rsm, pdf, params, device, report);
     out.lights = std::move(set.lights);
     out.levels = std::move(set.levels);
+    out.chains = std::move(set.chains);
   }
   out.requested = method.needs_pdf ? params.count : static_cast<int>(out.lights.size());
   if (!out.is_tree())

@@ -24,7 +24,7 @@ std::vector<interop::Kernel> texel_kernels(const Rsm& rsm) {
 
 // Every texel that reflects, with its own power, footprint and lobes: neither sampled nor filtered, what all
 // other methods approximate.
-LightSet generate_texels(const Rsm& rsm, const Pdf*, const LightsParams&, gpu::Device* device,
+LightSet generate_texels(const Rsm& rsm, const Pdf*, const LightsParams& params, gpu::Device* device,
                          Report& report) {
   report.skipped("sampling",
                  "method texels takes every texel that reflects: density, count, points and "
@@ -35,7 +35,7 @@ LightSet generate_texels(const Rsm& rsm, const Pdf*, const LightsParams&, gpu::D
                                              " texels reflect, more than " +
                                              std::to_string(interop::MAX_POINTS) + "; bake a smaller RSM");
   if (kernels.empty()) return {};
-  return {filter_lights(rsm, kernels, *device, report), {}};
+  return {filter_lights(rsm, kernels, params, *device, report), {}};
 }
 
 }  // namespace vsgl

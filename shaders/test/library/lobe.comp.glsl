@@ -15,5 +15,9 @@ void call() {
     case 3u: put(lobe_decode(take_moments())); break;
     case 4u: put(toksvig_encode(take3(), take())); break;
     case 5u: put(toksvig_decode(take_moments())); break;
+    case 6u: put(laurijssen_encode(take3(), take())); break;
+    case 7u: put(laurijssen_decode(take_moments())); break;
+    case 8u: { uint kind = take_uint(); put(lobe_encode_by(kind, take3(), take())); break; }
+    case 9u: { uint kind = take_uint(); put(lobe_decode_by(kind, take_moments())); break; }
   }
 }

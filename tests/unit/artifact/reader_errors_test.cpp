@@ -273,6 +273,19 @@ TEST(LightsErrors, CountsAndRanges) {
   });
 }
 
+TEST(LightsErrors, Chains) {
+  Lights lights = sample_lights(9, true);
+  lights.chains.states = {{1, 2, 0}, {3, 4, 1}};
+  Broken<Lights> file(lights, [](const auto& p) { read_lights(p); });
+  file.expect(ErrorCode::invalid_data, {"'chains.count' is 0"},
+              [](ExrFile& f) { f.parts[1].attributes["chains.count"] = 0; });
+  file.expect(ErrorCode::wrong_size, {"'chains'", "2x1 pixels instead of 3x1"},
+              [](ExrFile& f) { f.parts[1].attributes["chains.count"] = 3; });
+  file.expect(ErrorCode::invalid_data, {"'chains.steps' is -1"},
+              [](ExrFile& f) { f.parts[1].attributes["chains.steps"] = -1; });
+  file.expect(ErrorCode::missing_part, {"'lights' is missing"}, [](ExrFile& f) { f.parts[0].name = "tree"; });
+}
+
 // Levels follow from the children; what does not follow is refused.
 TEST(LightsErrors, Trees) {
   Broken<Lights> file(sample_tree(), [](const auto& p) { read_lights(p); });

@@ -102,6 +102,20 @@ TEST(RoundTrip, Lights) {
     }
 }
 
+TEST(RoundTrip, Chains) {
+  const TemporaryFolder folder;
+  for (std::uint32_t count : {1u, 1024u, 1500u}) {
+    Lights a = sample_lights(37, true);  // fewer than there are chains: some give no light
+    for (std::uint32_t i = 0; i < count; ++i) a.chains.states.push_back({i, 0xffffffffu - i, i % 6});
+    a.chains.steps = 65;
+    write(folder / "l.exr", a, sample_provenance());
+    const Lights b = read_lights(folder / "l.exr");
+    EXPECT_TRUE(same_bytes(a.lights, b.lights)) << count;
+    EXPECT_TRUE(same_bytes(a.chains.states, b.chains.states)) << count;
+    EXPECT_EQ(b.chains.steps, 65);
+  }
+}
+
 TEST(RoundTrip, LightTree) {
   const TemporaryFolder folder;
   for (const bool empty : {false, true}) {

@@ -68,7 +68,9 @@ Rsm sparse_room() {
 
 void expect_sound(const Lights& lights) {
   for (const Light& l : lights.lights) {
-    for (interop::vec3 axis : {l.diffuse_axis, l.normal, l.shading_normal, l.incident})
+    const bool is_diffuse = luminance(test::to_double(l.power_diffuse)) > 0;
+    EXPECT_NEAR(length(test::to_double(l.diffuse_axis)), is_diffuse ? 1 : 0, 1e-5);
+    for (interop::vec3 axis : {l.normal, l.shading_normal, l.incident})
       EXPECT_NEAR(length(test::to_double(axis)), 1, 1e-5);
     EXPECT_GE(l.variance, 0);
     EXPECT_GE(l.level, 0);
