@@ -17,9 +17,6 @@ double ramp(double x) {
 Vec3 local_view(const SpecularReceiver& r) {
   return {r.sin_view, 0, r.cos_view};
 }
-Vec3 local_mirror(const SpecularReceiver& r) {
-  return {-r.sin_view, 0, r.cos_view};
-}
 
 Vec3 half_vector(const SpecularReceiver& r, Vec3 light) {
   const Vec3 h = local_view(r) + light;
@@ -77,18 +74,6 @@ SpecularFilter specular_filter(const SpecularReceiver& r, Vec3 light, double sha
           std::sqrt(r.sin_view * r.sin_view * par + r.cos_view * r.cos_view)};
 }
 
-double specular_asg_convolved(const SpecularReceiver& r, Vec3 light, double sharpness) {
-  const double nu = sharpness / 2, eta_y = 2 / r.alpha2 / 8, eta_x = eta_y / (r.cos_view * r.cos_view);
-  const Vec3 x{0, 1, 0}, y = cross(local_mirror(r), x);
-  const double dx = dot(light, x), dy = dot(light, y);
-  const double exponent = eta_x * nu / (eta_x + nu) * dx * dx + eta_y * nu / (eta_y + nu) * dy * dy;
-  return pi * std::exp(-exponent) / std::sqrt((eta_x + nu) * (eta_y + nu)) / sg_integral(sharpness);
-}
-
-double specular_coefficient(const SpecularReceiver& r, double cosine) {
-  return cosine > 0 ? 1 / (4 * pi * r.alpha2 * r.cos_view * masked(r, cosine)) : 0;
-}
-
 double specular_vmf_filtered(const SpecularReceiver& r, Vec3 axis, double sharpness) {
   const Vec3 light = specular_local(r, axis);
   const SpecularFilter f = specular_filter(r, light, sharpness);
@@ -105,7 +90,7 @@ double specular_vmf_ggx(const SpecularReceiver& r, Vec3 axis, double sharpness) 
   return horizon.visible * masking / (masking + ggx_lambda(r.alpha2, horizon.cosine)) * f.density * scale;
 }
 
-double specular_vmf_gaussian(const SpecularReceiver& r, Vec3 axis, double sharpness) {
+double specular_vmf_projected(const SpecularReceiver& r, Vec3 axis, double sharpness) {
   const Vec3 light = specular_local(r, axis);
   const SpecularHorizon horizon = specular_horizon(r, light, sharpness);
   const SpecularFilter f = specular_filter(r, light, sharpness);
@@ -117,10 +102,14 @@ double specular_vmf_gaussian(const SpecularReceiver& r, Vec3 axis, double sharpn
   const Vec3 h = half_vector(r, light);
   const double density = std::exp(-h.x * h.x / par - h.y * h.y / perp) / (pi * std::sqrt(par * perp));
   const double narrow = horizon.visible * density / (4 * r.cos_view * masking);
+  return std::lerp(broad, narrow, ramp(sharpness / 4 - 1));
+}
 
+double specular_vmf_gaussian(const SpecularReceiver& r, Vec3 axis, double sharpness) {
+  const Vec3 light = specular_local(r, axis);
   const double sharp = specular_brdf_cos(r.ndf, std::sqrt(r.alpha2), {0, 0, 1}, local_view(r), light);
-  const double extended = std::lerp(broad, narrow, ramp(sharpness / 4 - 1));
-  return std::lerp(extended, sharp, ramp((0.1 * sharpness - r.across) / (0.08 * std::max(sharpness, 1e-6))));
+  return std::lerp(specular_vmf_projected(r, axis, sharpness), sharp,
+                   ramp((0.1 * sharpness - r.across) / (0.08 * std::max(sharpness, 1e-6))));
 }
 
 double specular_vmf(const SpecularReceiver& r, Vec3 axis, double sharpness) {
@@ -128,18 +117,9 @@ double specular_vmf(const SpecularReceiver& r, Vec3 axis, double sharpness) {
                                    : specular_vmf_gaussian(r, axis, sharpness);
 }
 
-double specular_vmf_asg(const SpecularReceiver& r, Vec3 axis, double sharpness) {
-  const Vec3 light = specular_local(r, axis);
-  return specular_coefficient(r, light.z) * std::max(dot(light, local_mirror(r)), 0.0) *
-         specular_asg_convolved(r, light, sharpness);
-}
-
-double specular_vmf_asg_product(const SpecularReceiver& r, Vec3 axis, double sharpness) {
-  const Vec3 light = specular_local(r, axis), mirror = local_mirror(r);
-  const Vec3 product = normalise(2 / r.alpha2 / (4 * r.cos_view) * mirror + sharpness * light);
-  const double w = ramp(sharpness / 4 - 1);
-  const double smooth_term = std::max(dot((1 - w) * product + w * light, mirror), 0.0);
-  return specular_coefficient(r, product.z) * smooth_term * specular_asg_convolved(r, light, sharpness);
+double specular_vmf_ndf_filter(const SpecularReceiver& r, Vec3 axis, double sharpness) {
+  return r.ndf == interop::NDF_GGX ? specular_vmf_filtered(r, axis, sharpness)
+                                   : specular_vmf_projected(r, axis, sharpness);
 }
 
 }  // namespace vsgl

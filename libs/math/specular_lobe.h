@@ -37,23 +37,19 @@ struct SpecularFilter {
   double density = 0, slope_cosine = 1;
 };
 SpecularFilter specular_filter(const SpecularReceiver& r, Vec3 light, double sharpness);
-// [Xu 2013] integral of the normalised SG times the BRDF's ASG without its smooth term.
-double specular_asg_convolved(const SpecularReceiver& r, Vec3 light, double sharpness);
-// BRDF times cosine over the density of normals relative to its peak, in a direction at `cosine` to the
-// normal.
-double specular_coefficient(const SpecularReceiver& r, double cosine);
 
 // [Tokuyoshi 2024] as published: GGX filtered by the light over 4 sigma.
 double specular_vmf_filtered(const SpecularReceiver& r, Vec3 axis, double sharpness);
 // [EXT] GGX with masking, blended into the exact BRDF as the light sharpens.
 double specular_vmf_ggx(const SpecularReceiver& r, Vec3 axis, double sharpness);
-// [EXT] Beckmann and Phong: Gaussian of projected half vectors, with fall-backs for broad and sharp lights.
+// [EXT] Beckmann and Phong: Gaussian of projected half vectors, widened by the light; below sharpness 8
+// filtered GGX of equal width.
+double specular_vmf_projected(const SpecularReceiver& r, Vec3 axis, double sharpness);
+// [EXT] The same, with the BRDF at the light's axis for sharp lights.
 double specular_vmf_gaussian(const SpecularReceiver& r, Vec3 axis, double sharpness);
+// The light's spread filters the density of normals, without fall-back for sharp lights.
+double specular_vmf_ndf_filter(const SpecularReceiver& r, Vec3 axis, double sharpness);
 // The most accurate form of each density of normals.
 double specular_vmf(const SpecularReceiver& r, Vec3 axis, double sharpness);
-// [Tokuyoshi 2016, C.2] ASG lobe [Xu 2013]; coefficient and smooth term at the light's axis as printed, or at
-// the product lobe's.
-double specular_vmf_asg(const SpecularReceiver& r, Vec3 axis, double sharpness);
-double specular_vmf_asg_product(const SpecularReceiver& r, Vec3 axis, double sharpness);
 
 }  // namespace vsgl

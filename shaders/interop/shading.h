@@ -65,6 +65,13 @@ VSGL_CONST uint VISIBILITY_NONE = 0u;
 VSGL_CONST uint VISIBILITY_MAPS = 1u;
 VSGL_CONST uint VISIBILITY_BITS = 2u;
 
+// How the receiver's specular lobe and the light's spherical Gaussian are multiplied and integrated.
+VSGL_CONST uint SPECULAR_LOBE_AUTO = 0u;        // the most accurate form per NDF
+VSGL_CONST uint SPECULAR_LOBE_SG = 1u;          // lobe and light as SGs
+VSGL_CONST uint SPECULAR_LOBE_ASG = 2u;         // lobe as an anisotropic SG
+VSGL_CONST uint SPECULAR_LOBE_ASG_ASG = 3u;     // lobe and light as anisotropic SGs
+VSGL_CONST uint SPECULAR_LOBE_NDF_FILTER = 4u;  // the light filters the density of normals
+
 // Where a light's shadow map looks: hemisphere about `axis`.
 struct ShadingView {
   vec3 origin;  // m, relative to the anchor
@@ -87,7 +94,7 @@ VSGL_CONST uint SHADING_EMISSION_ID = 1u;  // NDF_* of the lights, likewise
 VSGL_CONST uint SHADING_SHADOWS_ID = 2u;   // VISIBILITY_*
 VSGL_CONST uint SHADING_CANCEL_ID = 3u;    // 1: consistent bias reduction
 VSGL_CONST uint SHADING_BUMPED_ID = 4u;    // 1: shading normals differ from geometric ones
-VSGL_CONST uint SHADING_ASG_ID = 5u;       // 1: anisotropic SG for the specular lobe, as the papers print it
+VSGL_CONST uint SHADING_LOBE_ID = 5u;      // SPECULAR_LOBE_*
 VSGL_CONST uint SHADING_PIXELS_ID = 6u;    // pixels per invocation
 VSGL_CONST uint NDF_ANY = 4u;
 

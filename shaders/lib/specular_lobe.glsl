@@ -107,11 +107,9 @@ float specular_vmf_ggx(SpecularReceiver r, vec3 axis, float sharpness) {
 }
 
 // [EXT] Beckmann and Phong: the light widens the Gaussian of projected half vectors. Broad lights (sharpness below 8, wholly below 4)
-// fall back to the filtered GGX of equal width, sharp ones (across / sharpness below 0.1, wholly below 0.02) to the BRDF at the
-// light's axis. Median error 3.4% (Beckmann), 2.5% (Phong) before the second blend.
-float specular_vmf_gaussian(SpecularReceiver r, vec3 axis, float sharpness) {
+// fall back to the filtered GGX of equal width. Median error 3.4% (Beckmann), 2.5% (Phong).
+float specular_vmf_projected(SpecularReceiver r, vec3 axis, float sharpness) {
   vec3 light = specular_local(r, axis);
-  vec3 view = vec3(r.sin_view, 0.0, r.cos_view);
   SpecularHorizon horizon = specular_horizon(r, light, sharpness);
   float visible_lambda = smith_lambda(r.ndf, r.alpha2, horizon.cosine);
   SpecularFilter f = specular_filter(r, light, sharpness);
@@ -121,56 +119,29 @@ float specular_vmf_gaussian(SpecularReceiver r, vec3 axis, float sharpness) {
   float variance = 0.5 / max(sharpness, 1.0);
   float par = r.alpha2 + variance;
   float perp = r.alpha2 + variance / (r.cos_view * r.cos_view);
-  vec3 h = view + light;
+  vec3 h = vec3(r.sin_view, 0.0, r.cos_view) + light;
   h *= inversesqrt(max(dot(h, h), 1e-8));
   float density = exp(-h.x * h.x / par - h.y * h.y / perp) * inversesqrt(par * perp) / PI;
   float narrow = horizon.visible * density / (4.0 * r.cos_view * (1.0 + r.view_lambda + visible_lambda));
+  return mix(broad, narrow, clamp(0.25 * sharpness - 1.0, 0.0, 1.0));
+}
 
-  float sharp = specular_brdf_cos(r.ndf, sqrt(r.alpha2), vec3(0.0, 0.0, 1.0), view, light);
-  float extended = mix(broad, narrow, clamp(0.25 * sharpness - 1.0, 0.0, 1.0));
-  return mix(extended, sharp, clamp((0.1 * sharpness - r.across) / (0.08 * max(sharpness, 1e-6)), 0.0, 1.0));
+// [EXT] The same; sharp lights (across / sharpness below 0.1, wholly below 0.02) take the BRDF at their axis.
+float specular_vmf_gaussian(SpecularReceiver r, vec3 axis, float sharpness) {
+  vec3 view = vec3(r.sin_view, 0.0, r.cos_view);
+  float sharp = specular_brdf_cos(r.ndf, sqrt(r.alpha2), vec3(0.0, 0.0, 1.0), view, specular_local(r, axis));
+  float w = clamp((0.1 * sharpness - r.across) / (0.08 * max(sharpness, 1e-6)), 0.0, 1.0);
+  return mix(specular_vmf_projected(r, axis, sharpness), sharp, w);
+}
+
+// The light's spread filters the density of normals, each by the form that its tails ask for, without fall-back for sharp lights.
+float specular_vmf_ndf_filter(SpecularReceiver r, vec3 axis, float sharpness) {
+  return r.ndf == NDF_GGX ? specular_vmf_filtered(r, axis, sharpness) : specular_vmf_projected(r, axis, sharpness);
 }
 
 // The most accurate form of each density of normals.
 float specular_vmf(SpecularReceiver r, vec3 axis, float sharpness) {
   return r.ndf == NDF_GGX ? specular_vmf_ggx(r, axis, sharpness) : specular_vmf_gaussian(r, axis, sharpness);
-}
-
-// [Xu 2013] integral of the normalised SG times the BRDF's ASG without its smooth term. Bandwidths: lambda_h / 8 in the plane
-// of incidence and lambda_h / (8 cos^2) across it, with lambda_h = 2 / alpha^2 [Tokuyoshi 2016, A.1]: never small, as the form needs.
-float specular_asg_convolved(SpecularReceiver r, vec3 light, float sharpness) {
-  float nu = 0.5 * sharpness;
-  float eta_y = 0.25 / r.alpha2;
-  float eta_x = eta_y / (r.cos_view * r.cos_view);
-  float x = light.y;
-  float y = r.sin_view * light.z + r.cos_view * light.x;
-  float exponent = eta_x * (nu / (eta_x + nu)) * x * x + eta_y * (nu / (eta_y + nu)) * y * y;
-  return PI * exp(-exponent) * inversesqrt((eta_x + nu) * (eta_y + nu)) / sg_integral(sharpness);
-}
-
-// BRDF times cosine over the density of normals relative to its peak, in a direction at `cosine` to the normal.
-float specular_coefficient(SpecularReceiver r, float cosine) {
-  float masking = 1.0 + r.view_lambda + smith_lambda(r.ndf, r.alpha2, cosine);
-  return cosine > 0.0 ? 1.0 / (4.0 * PI * r.alpha2 * r.cos_view * masking) : 0.0;
-}
-
-// [Tokuyoshi 2016, C.2] as printed: ASG lobe, with coefficient and smooth term at the light's axis.
-float specular_vmf_asg(SpecularReceiver r, vec3 axis, float sharpness) {
-  vec3 light = specular_local(r, axis);
-  float smooth_term = max(r.cos_view * light.z - r.sin_view * light.x, 0.0);
-  return specular_coefficient(r, light.z) * smooth_term * specular_asg_convolved(r, light, sharpness);
-}
-
-// Deviation: the coefficient at the axis of the product lobe; below sharpness 8 (wholly below 4) the smooth term, too.
-float specular_vmf_asg_product(SpecularReceiver r, vec3 axis, float sharpness) {
-  vec3 light = specular_local(r, axis);
-  vec3 reflected = vec3(-r.sin_view, 0.0, r.cos_view);
-  float lobe = 0.5 / (r.alpha2 * r.cos_view);  // 2 sqrt(eta_x eta_y)
-  vec3 product = lobe * reflected + sharpness * light;
-  product *= inversesqrt(max(dot(product, product), 1e-30));
-  vec3 smooth_axis = mix(product, light, clamp(0.25 * sharpness - 1.0, 0.0, 1.0));
-  float smooth_term = max(dot(smooth_axis, reflected), 0.0);
-  return specular_coefficient(r, product.z) * smooth_term * specular_asg_convolved(r, light, sharpness);
 }
 
 #endif

@@ -3,13 +3,17 @@
 #define VSGL_SHADING_RECEIVE_GLSL
 
 #include "kernels/fused.glsl"
+#include "lib/reflected_lobe.glsl"
 #include "shading/receiver.glsl"
 
-layout(constant_id = SHADING_ASG_ID) const uint ASG = 0;
+layout(constant_id = SHADING_LOBE_ID) const uint LOBE = SPECULAR_LOBE_AUTO;
 
 // The specular lobe's answer to the normalised SG, 1/sr.
 float specular_answer(Receiver r, Incoming incoming) {
-  if (ASG != 0) return specular_vmf_asg(r.lobe, incoming.axis, incoming.sharpness);
+  if (LOBE == SPECULAR_LOBE_SG) return specular_vmf_sg(r.lobe, incoming.axis, incoming.sharpness);
+  if (LOBE == SPECULAR_LOBE_ASG) return specular_vmf_asg(r.lobe, incoming.axis, incoming.sharpness);
+  if (LOBE == SPECULAR_LOBE_ASG_ASG) return specular_vmf_asg_asg(r.lobe, incoming.axis, incoming.sharpness);
+  if (LOBE == SPECULAR_LOBE_NDF_FILTER) return specular_vmf_ndf_filter(r.lobe, incoming.axis, incoming.sharpness);
   vec3 light = specular_local(r.lobe, incoming.axis);
   if (r.lobe.ndf == NDF_GGX) return fast_specular_ggx(r.lobe, light, incoming, r.slope_view);
   return fast_specular_gaussian(r.lobe, light, incoming);

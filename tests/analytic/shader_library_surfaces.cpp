@@ -2,11 +2,12 @@
 
 #include "math/frame.h"
 #include "math/octahedral.h"
-#include "math/specular_lobe.h"
+#include "math/reflected_lobe.h"
 #include "shader_library.h"
 #include "spirv/test/library/frame.comp.glsl.h"
 #include "spirv/test/library/microfacet.comp.glsl.h"
 #include "spirv/test/library/octahedral.comp.glsl.h"
+#include "spirv/test/library/reflected_lobe.comp.glsl.h"
 #include "spirv/test/library/specular_lobe.comp.glsl.h"
 
 namespace vsgl::test {
@@ -189,14 +190,18 @@ auto value(double (*method)(const SpecularReceiver&, Vec3, double)) {
   };
 }
 
-LibraryFile specular_lobe_file() {
-  // Alpha 1e-3 resolves directions only to a few hundredths of a lobe in float32: finite is all it can be
-  // asked to be.
-  const std::vector<Row> receivers = combinations({ndfs(), numbers({0.02, 0.1, 0.5, 1}), upright_views()});
-  const std::vector<Row> lights = combinations({directions(), numbers({0, 1e-6, 0.5, 3, 5, 20, 300, 1e4})});
-  const std::vector<Row> calls = combinations({receivers, lights});
-  const std::vector<Row> wild =
+// Alpha 1e-3 resolves directions only to a few hundredths of a lobe in float32: finite is all it can be
+// asked to be.
+struct LobeRows {
+  std::vector<Row> receivers = combinations({ndfs(), numbers({0.02, 0.1, 0.5, 1}), upright_views()});
+  std::vector<Row> lights = combinations({directions(), numbers({0, 1e-6, 0.5, 3, 5, 20, 300, 1e4})});
+  std::vector<Row> calls = combinations({receivers, lights});
+  std::vector<Row> wild =
       combinations({ndfs(), numbers({1e-3, 0.5, 1}), normals_and_views(), directions(), sharpnesses()});
+};
+
+LibraryFile specular_lobe_file() {
+  const LobeRows rows;
   const auto local = [](Arguments& a, const SpecularReceiver& r) { return specular_local(r, a.take3()); };
   const Tolerance tolerance{2e-3, 1e-5};
   return {"specular_lobe",
@@ -206,11 +211,11 @@ LibraryFile specular_lobe_file() {
             [](Arguments& a) { return values_of(take_receiver(a)); },
             {1e-4, 1e-5}},
            {"specular_local",
-            combinations({{receivers[0]}, directions()}),
+            combinations({{rows.receivers[0]}, directions()}),
             [=](Arguments& a) { return Values() << local(a, take_receiver(a)); },
             {0, 3e-7}},
            {"specular_horizon",
-            calls,
+            rows.calls,
             [=](Arguments& a) {
               const SpecularReceiver r = take_receiver(a);
               const Vec3 light = local(a, r);
@@ -219,7 +224,7 @@ LibraryFile specular_lobe_file() {
             },
             {2e-3, 1e-4}},
            {"specular_filter",
-            calls,
+            rows.calls,
             [=](Arguments& a) {
               const SpecularReceiver r = take_receiver(a);
               const Vec3 light = local(a, r);
@@ -227,32 +232,60 @@ LibraryFile specular_lobe_file() {
               return Values() << f.density << f.slope_cosine;
             },
             {1e-3, 1e-6}},
-           {"specular_vmf_filtered", calls, value(specular_vmf_filtered), tolerance, wild},
-           {"specular_vmf_ggx", calls, value(specular_vmf_ggx), tolerance, wild},
-           {"specular_vmf_gaussian", calls, value(specular_vmf_gaussian), tolerance, wild},
-           {"specular_vmf", calls, value(specular_vmf), tolerance, wild},
-           {"specular_asg_convolved", calls,
-            [=](Arguments& a) {
-              const SpecularReceiver r = take_receiver(a);
-              const Vec3 light = local(a, r);
-              return specular_asg_convolved(r, light, a.take());
-            },
-            tolerance},
-           {"specular_coefficient",
-            combinations({receivers, numbers({-0.1, 0, 1e-4, 0.3, 1})}),
+           {"specular_vmf_filtered", rows.calls, value(specular_vmf_filtered), tolerance, rows.wild},
+           {"specular_vmf_ggx", rows.calls, value(specular_vmf_ggx), tolerance, rows.wild},
+           {"specular_vmf_gaussian", rows.calls, value(specular_vmf_gaussian), tolerance, rows.wild},
+           {"specular_vmf", rows.calls, value(specular_vmf), tolerance, rows.wild},
+           {"specular_vmf_projected", rows.calls, value(specular_vmf_projected), tolerance, rows.wild},
+           {"specular_vmf_ndf_filter", rows.calls, value(specular_vmf_ndf_filter), tolerance, rows.wild}}};
+}
+
+LibraryFile reflected_lobe_file() {
+  const LobeRows rows;
+  const Tolerance tolerance{2e-3, 1e-5};
+  return {"reflected_lobe",
+          reflected_lobe_comp_spv,
+          {{"specular_coefficient",
+            combinations({rows.receivers, numbers({-0.1, 0, 1e-4, 0.3, 1})}),
             [](Arguments& a) {
               const SpecularReceiver r = take_receiver(a);
               return specular_coefficient(r, a.take());
             },
             {2e-4, 1e-5}},
-           {"specular_vmf_asg", calls, value(specular_vmf_asg), tolerance, wild},
-           {"specular_vmf_asg_product", calls, value(specular_vmf_asg_product), tolerance, wild}}};
+           {"reflected_local",
+            combinations({rows.receivers, directions()}),
+            [](Arguments& a) {
+              const SpecularReceiver r = take_receiver(a);
+              return Values() << reflected_local(r, a.take3());
+            },
+            {0, 5e-7}},
+           {"reflected_bandwidths",
+            rows.receivers,
+            [](Arguments& a) {
+              const ReflectedBandwidths b = reflected_bandwidths(take_receiver(a));
+              return Values() << b.x << b.y;
+            },
+            {1e-5, 0}},
+           {"specular_vmf_sg", rows.calls, value(specular_vmf_sg), tolerance, rows.wild},
+           {"specular_asg_convolved", rows.calls, value(specular_asg_convolved), tolerance},
+           {"specular_vmf_asg", rows.calls, value(specular_vmf_asg), tolerance, rows.wild},
+           {"asg_product",
+            combinations({directions(), numbers({0.25, 60, 1e5}), numbers({0.25, 60, 1e4}),
+                          numbers({0, 1e-6, 1, 50, 1e4})}),
+            [](Arguments& a) {
+              const Vec3 light = a.take3();
+              const double eta_x = a.take(), eta_y = a.take();
+              const AsgProduct p = asg_product(light, eta_x, eta_y, a.take());
+              return Values() << p.axis << p.exponent << p.integral;
+            },
+            {1e-4, 1e-4}},
+           {"specular_vmf_asg_asg", rows.calls, value(specular_vmf_asg_asg), {2e-3, 1e-4}, rows.wild}}};
 }
 
 }  // namespace
 
 std::vector<LibraryFile> surface_files() {
-  return {frame(), octahedral(), microfacet(), specular_lobe_file()};
+  return {frame(), octahedral(), microfacet(), specular_lobe_file(), reflected_lobe_file()};
 }
 
 }  // namespace vsgl::test

@@ -88,7 +88,7 @@ gpu::ComputePipeline DevicePass::build(const ReceiverList& receivers, std::uint3
                                {interop::SHADING_SHADOWS_ID, visibility_.kind()},
                                {interop::SHADING_CANCEL_ID, kernel_.threshold > 0},
                                {interop::SHADING_BUMPED_ID, receivers.bumped},
-                               {interop::SHADING_ASG_ID, kernel_.asg},
+                               {interop::SHADING_LOBE_ID, kernel_.lobe},
                                {interop::SHADING_PIXELS_ID, pixels}});
 }
 

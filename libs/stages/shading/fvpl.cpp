@@ -9,7 +9,8 @@ namespace vsgl {
 
 Indirect shade_fvpl(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                     const ShadingParams& params, gpu::Device& device, Report& report) {
-  const ShadingKernel kernel{fvpl_comp_spv, pack_clusters(lights)};
+  ShadingKernel kernel{fvpl_comp_spv, pack_clusters(lights)};
+  kernel.lobe = find_specular_lobe(params).kind;
   return compose(gbuffer, run_shading(gbuffer, visibility, kernel, params, device, report), !params.skip);
 }
 

@@ -4,6 +4,20 @@
 
 namespace vsgl {
 
+namespace {
+
+void add_specular_lobes(CLI::App& app, std::string& lobe) {
+  std::string help = "how a pixel's specular lobe meets a light's";
+  std::vector<std::string> names;
+  for (const SpecularLobe& row : specular_lobes()) {
+    help += (names.empty() ? ": " : "; ") + row.name + ": " + row.summary;
+    names.push_back(row.name);
+  }
+  app.add_option("--specular-lobe", lobe, help)->check(CLI::IsMember(names));
+}
+
+}  // namespace
+
 void add_options(CLI::App& app, ShadingParams& params) {
   add_methods(app, light_models(), params.light_model, "how a light is evaluated", "--light-model");
   app.add_option(
@@ -14,12 +28,18 @@ void add_options(CLI::App& app, ShadingParams& params) {
   app.add_option("--clamp", params.clamp,
                  "vpl: smallest distance, as a fraction of the scene's radius; 0: none")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_option(
-         "--specular-lobe", params.specular_lobe,
-         "auto: the most accurate per normal distribution; asg: anisotropic SG, as the papers print it")
-      ->check(CLI::IsMember({"auto", "asg"}));
+  add_specular_lobes(app, params.specular_lobe);
   app.add_option("--cbr", params.cbr, "consistent bias reduction: threshold of the sharpness ratio; 0: off")
       ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--vsl-samples", params.vsl_samples,
+                 "vsl: directions that a technique draws in a hemisphere; narrower cones take fewer")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--vsl-cone", params.vsl_cone,
+                 "vsl: cone of directions: of a disk that faces the pixel, or of the sphere")
+      ->check(CLI::IsMember({"disk", "sphere"}));
+  app.add_option("--vsl-techniques", params.vsl_techniques,
+                 "vsl: directions drawn from the cone, the receiver's or the light's BRDF; all: balanced")
+      ->check(CLI::IsMember({"all", "cone", "receiver", "light"}));
   app.add_option("--diffuse-scale", params.diffuse_scale,
                  "cut: 2: diffuse light at half resolution where that suffices; 1: at every pixel")
       ->check(CLI::IsMember({1, 2}));

@@ -5,6 +5,7 @@
 
 #include "stages/shading/device_pass.h"
 #include "stages/shading/interleave.h"
+#include "stages/shading/methods.h"
 
 namespace vsgl {
 namespace {
@@ -100,7 +101,7 @@ std::vector<float> cancelled_share(const Indirect& indirect, const std::vector<S
 Indirect shade_sg(ShadingKernel kernel, const GBuffer& gbuffer, const Visibility* visibility,
                   const ShadingParams& params, gpu::Device& device, Report& report) {
   kernel.threshold = static_cast<float>(params.cbr);
-  kernel.asg = params.specular_lobe == "asg";
+  kernel.lobe = find_specular_lobe(params).kind;
   const auto sums = run_shading(gbuffer, visibility, kernel, params, device, report);
   Indirect out = compose(gbuffer, sums, !params.skip);
   if (params.cbr > 0) out.cancellation = cancelled_share(out, sums);

@@ -19,8 +19,12 @@ struct ShadingKernel {
   std::span<const std::uint32_t> spirv;
   PackedLights lights;
   float threshold = 0;  // a_cbr; 0: no bias reduction
-  bool asg = false;
+  std::uint32_t lobe = interop::SPECULAR_LOBE_AUTO;
   float clamp_distance2 = 0;  // m^2
+  interop::VslSampling vsl{};
+  // Of a kernel whose loop over lights is long: pixels an invocation and dispatch; 0: what suits the others.
+  std::uint32_t pixels = 0;
+  std::size_t receivers = 0;
 };
 
 // Sums of each pixel of the G-buffer; zero where nothing is seen. `visibility` may be null.

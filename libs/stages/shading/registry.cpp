@@ -57,10 +57,11 @@ void require_same_anchor(const std::string& what, Vec3 anchor, const GBuffer& gb
 
 const std::vector<LightModel>& light_models() {
   static const std::vector<LightModel> models = {
-      {"fvpl", "filtered virtual point lights: clusters with their mean BRDF", shade_fvpl},
+      {"fvpl", "filtered virtual point lights: clusters with their mean BRDF", shade_fvpl, true},
       {"vpl", "virtual point lights with the true BRDFs and a floor of the distance", shade_vpl},
-      {"vsgl", "virtual spherical Gaussian lights with Gaussian footprints (2016)", shade_vsgl},
-      {"vsgl-2014", "virtual spherical Gaussian lights as disks (2014)", shade_vsgl_2014},
+      {"vsl", "virtual spherical lights: the true BRDFs over a light's cone, by Monte Carlo", shade_vsl},
+      {"vsgl", "virtual spherical Gaussian lights with Gaussian footprints (2016)", shade_vsgl, true},
+      {"vsgl-2014", "virtual spherical Gaussian lights as disks (2014)", shade_vsgl_2014, true},
   };
   return models;
 }
@@ -85,8 +86,12 @@ std::string resolve_schedule(const ShadingParams& params, const Lights& lights) 
 Indirect shade(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                const ShadingParams& params, gpu::Device& device, Report& report) {
   const LightModel& model = find_method(light_models(), params.light_model, "light_model");
-  if (params.specular_lobe != "auto" && params.specular_lobe != "asg")
-    throw Error(ErrorCode::bad_value, "specular_lobe: \"" + params.specular_lobe + "\" is none of auto, asg");
+  if (are_sphere_lights(lights)) require_sphere_lights(model, visibility, params);
+  const std::string schedule = resolve_schedule(params, lights);
+  require_specular_lobe(model, schedule, params);
+  if (params.interleave != 1 && params.interleave != 2 && params.interleave != 4 && params.interleave != 8)
+    throw Error(ErrorCode::out_of_range,
+                "interleave: " + std::to_string(params.interleave) + " is none of 1, 2, 4, 8");
   require_range("clamp", params.clamp, 0, 1);
   require_range("cbr", params.cbr, 0, 1);
   require_range("diffuse_scale", params.diffuse_scale, 1, 2);

@@ -15,11 +15,16 @@ namespace vsgl {
 struct ShadingParams {
   std::string light_model = "fvpl";  // one of light_models()
   std::string schedule = "auto";     // auto | flat | interleave | cut: see resolve_schedule()
+  int interleave = 4;  // of interleave: pixels a side of the pattern; 1, 2, 4 or 8, 1 is flat
   double clamp = 0.01;  // vpl: floor of the distance, as a fraction of the scene's radius; 0: none
-  std::string specular_lobe =
-      "auto";             // auto: the most accurate per NDF; asg: anisotropic SG, as the papers print it
+  std::string specular_lobe = "auto";  // one of specular_lobes()
   double cbr = 0.05;      // consistent bias reduction: threshold a_cbr, 0..1; 0: off
   int diffuse_scale = 2;  // cut: 2: diffuse light at half resolution where that suffices; 1: at every pixel
+  int vsl_samples = 32;   // vsl: directions a technique draws in a hemisphere, 1..4096; narrower cones take fewer
+  std::string vsl_cone = "disk";       // vsl: disk | sphere
+  std::string vsl_techniques = "all";  // vsl: all | cone | receiver | light: where directions are drawn from
+  std::uint64_t seed = 0;              // vsl: of the directions
+  Pass pass{};                           // vsl: other directions in each; vpl: a smaller floor of the distance
   bool skip = true;       // leave out what the scene does not need
 };
 
@@ -45,7 +50,16 @@ struct LightModel {
   std::string summary;
   Indirect (*run)(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
                   Report&);  // of a list of lights
+  bool has_lobe = false;     // reflects light by a specular lobe of choice
 };
 const std::vector<LightModel>& light_models();
+
+// How the receiver's specular lobe is multiplied with a light's spherical Gaussian.
+struct SpecularLobe {
+  std::string name;
+  std::string summary;
+  std::uint32_t kind;  // interop::SPECULAR_LOBE_*
+};
+const std::vector<SpecularLobe>& specular_lobes();
 
 }  // namespace vsgl

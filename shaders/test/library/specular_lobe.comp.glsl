@@ -34,9 +34,7 @@ void call() {
     case 5u: put(specular_vmf_ggx(r, take3(), take())); break;
     case 6u: put(specular_vmf_gaussian(r, take3(), take())); break;
     case 7u: put(specular_vmf(r, take3(), take())); break;
-    case 8u: put(specular_asg_convolved(r, specular_local(r, take3()), take())); break;
-    case 9u: put(specular_coefficient(r, take())); break;
-    case 10u: put(specular_vmf_asg(r, take3(), take())); break;
-    case 11u: put(specular_vmf_asg_product(r, take3(), take())); break;
+    case 8u: put(specular_vmf_projected(r, take3(), take())); break;
+    case 9u: put(specular_vmf_ndf_filter(r, take3(), take())); break;
   }
 }

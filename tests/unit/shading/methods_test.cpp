@@ -122,17 +122,48 @@ TEST(Fvpl, KeepsSpecularPowerWithoutALobe) {
     ASSERT_EQ(broadest.diffuse[i].x, without.diffuse[i].x);
 }
 
-TEST(Vsgl, TakesTheAnisotropicLobeOnRequest) {
-  for (std::uint32_t receiver : {interop::NDF_GGX, interop::NDF_BECKMANN, interop::NDF_PHONG}) {
-    SCOPED_TRACE(receiver);
-    const BoxOptions options = box(receiver, interop::NDF_GGX);
-    const GBuffer gbuffer = test::box_gbuffer(options);
-    const Lights lights = test::box_lights(options);
-    ShadingParams params{.light_model = "vsgl", .specular_lobe = "asg", .cbr = 0};
-    test::expect_near_oracle(
-        test::shade_box(gbuffer, lights, params),
-        [&](std::size_t i) { return test::vsgl_sum(gbuffer, i, lights, false, {.asg = true}); }, 1e-4);
-  }
+TEST(SpecularLobes, EqualTheLibrarysIntegrals) {
+  for (const SpecularLobe& lobe : specular_lobes())
+    for (std::uint32_t receiver : {interop::NDF_GGX, interop::NDF_BECKMANN, interop::NDF_PHONG})
+      for (const char* method : {"fvpl", "vsgl", "vsgl-2014"}) {
+        if (method != std::string("vsgl") && receiver != interop::NDF_BECKMANN) continue;
+        SCOPED_TRACE(testing::Message() << lobe.name << " " << method << " receiver " << receiver);
+        const BoxOptions options = box(receiver, interop::NDF_GGX);
+        const GBuffer gbuffer = test::box_gbuffer(options);
+        const Lights lights = test::box_lights(options);
+        const std::string model = method;
+        const OracleOptions oracle{.lobe = lobe.name};
+        test::expect_near_oracle(
+            test::shade_box(gbuffer, lights, {.light_model = model, .specular_lobe = lobe.name, .cbr = 0}),
+            [&](std::size_t i) {
+              return model == "fvpl" ? test::fvpl_sum(gbuffer, i, lights, oracle)
+                                     : test::vsgl_sum(gbuffer, i, lights, model == "vsgl-2014", oracle);
+            },
+            lobe.name == "auto" ? 2e-4 : 1e-4);
+      }
+}
+
+// Where the true BRDF is taken there is no lobe to choose, nor where a cut has forms of its own.
+TEST(SpecularLobes, AreRefusedWhereTheyHaveNoEffect) {
+  const GBuffer gbuffer = test::box_gbuffer({});
+  const Lights lights = test::box_lights({});
+  std::size_t refused = 0;
+  for (const LightModel& model : light_models())
+    for (const SpecularLobe& lobe : specular_lobes()) {
+      const ShadingParams params{.light_model = model.name, .specular_lobe = lobe.name};
+      const auto run = [&] { test::shade_box(gbuffer, lights, params); };
+      if (model.has_lobe || lobe.name == "auto") {
+        EXPECT_NO_THROW(run()) << model.name << " " << lobe.name;
+      } else {
+        test::expect_error(ErrorCode::bad_value, {"specular_lobe", lobe.name, model.name}, run);
+        ++refused;
+      }
+    }
+  EXPECT_GE(refused, specular_lobes().size() - 1);
+  Lights tree = lights;
+  tree.levels = {0, 1, static_cast<std::uint32_t>(tree.lights.size())};
+  test::expect_error(ErrorCode::bad_value, {"specular_lobe", "cut"},
+                     [&] { test::shade_box(gbuffer, tree, {.specular_lobe = "sg"}); });
 }
 
 // A light below the plane of a pixel whose shading normal leans towards it.

@@ -2,13 +2,15 @@
 
 // Sums over all lights of one pixel in double precision, from the functions of libs/math.
 
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "box_scene.h"
 #include "cluster/cluster.h"
 #include "math/fvpl.h"
 #include "math/microfacet.h"
-#include "math/specular_lobe.h"
+#include "math/reflected_lobe.h"
 #include "math/vsgl.h"
 
 namespace vsgl::test {
@@ -20,7 +22,7 @@ struct Radiance {
 
 struct OracleOptions {
   double cbr = 0;
-  bool asg = false;
+  std::string lobe = "auto";
   double clamp_distance = 0;
 };
 
@@ -72,7 +74,21 @@ inline Radiance vpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights&
   return sum;
 }
 
-inline Radiance fvpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights& lights) {
+using SpecularForm = double (*)(const SpecularReceiver&, Vec3, double);
+// By the names of specular_lobes().
+inline SpecularForm specular_form(const std::string& lobe) {
+  static const std::map<std::string, SpecularForm> forms = {
+      {"auto", specular_vmf},
+      {"sg", specular_vmf_sg},
+      {"asg", specular_vmf_asg},
+      {"asg-asg", specular_vmf_asg_asg},
+      {"ndf-filter", specular_vmf_ndf_filter},
+  };
+  return forms.at(lobe);
+}
+
+inline Radiance fvpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights& lights,
+                         const OracleOptions& options = {}) {
   const OraclePixel p(gbuffer, index);
   const SpecularReceiver r = specular_receiver(p.surface.ndf, p.surface.alpha, p.normal, p.view);
   Radiance sum;
@@ -82,21 +98,24 @@ inline Radiance fvpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights
     const Vec3 emission = fvpl_emission(cluster, view.u, view.inverse_d2);
     const FvplReflection reflection = fvpl_extended(r, view, inverse_variance);
     sum.diffuse += to_double(p.surface.diffuse) * emission * reflection.diffuse;
-    sum.specular += to_double(p.surface.specular) * emission * reflection.specular;
+    if (!p.is_specular()) continue;
+    const double answer = specular_form(options.lobe)(r, view.u, view.sharpness);
+    sum.specular +=
+        to_double(p.surface.specular) * emission * (fvpl_fluence(view.d2, inverse_variance) * answer);
   }
   return sum;
 }
 
 // One emission lobe as the receiver answers it.
-inline Radiance receive_lobe(const OraclePixel& p, Vec3 peak, const VsglIncoming& incoming, bool asg) {
+inline Radiance receive_lobe(const OraclePixel& p, Vec3 peak, const VsglIncoming& incoming,
+                             const std::string& lobe) {
   Radiance out;
   out.diffuse =
       to_double(p.surface.diffuse) * peak *
       (incoming.fluence * cosine_mean(dot(incoming.axis, p.normal), incoming.sharpness) / std::numbers::pi);
   if (!p.is_specular()) return out;
   const SpecularReceiver r = specular_receiver(p.surface.ndf, p.surface.alpha, p.normal, p.view);
-  const double value = asg ? specular_vmf_asg(r, incoming.axis, incoming.sharpness)
-                           : specular_vmf(r, incoming.axis, incoming.sharpness);
+  const double value = specular_form(lobe)(r, incoming.axis, incoming.sharpness);
   out.specular = to_double(p.surface.specular) * peak * (incoming.fluence * value);
   return out;
 }
@@ -123,9 +142,9 @@ inline Radiance vsgl_sum(const GBuffer& gbuffer, std::size_t index, const Lights
         (disk ? seen / std::max(dot(axis, normal), 0.1) : 1) / sg_integral(sharpness);
     const bool glossy = light.ndf != interop::NDF_NONE;
     const Radiance d = receive_lobe(p, to_double(light.power_diffuse) * diffuse_peak,
-                                    incoming(v, light.variance, normal, diffuse_sharpness), options.asg);
+                                    incoming(v, light.variance, normal, diffuse_sharpness), options.lobe);
     const Radiance s = receive_lobe(p, to_double(light.power_specular) * specular_peak,
-                                    incoming(v, light.variance, axis, sharpness), options.asg);
+                                    incoming(v, light.variance, axis, sharpness), options.lobe);
     double weight = 0, density = 0;
     if (options.cbr > 0) {
       const double d2 =
