@@ -121,6 +121,13 @@ struct Agreement {
     hidden += visible ? 0 : w;
     weight += w;
   }
+  void add(const Agreement& other) {
+    error += other.error;
+    hidden += other.hidden;
+    weight += other.weight;
+  }
+  // One pixel, of whose light no more is known than how much of it is visible.
+  void judge_share(double share) { error = std::abs(share * weight - (weight - hidden)); }
 };
 
 // Of every third pixel with all lights.
@@ -135,7 +142,7 @@ Agreement agreement(const Kind& visibility, const Lights& lights) {
 }
 
 // Of every pixel with the nodes below the start of its tile's cut: those in the cut are seen by what their
-// masks say, and leaves whose whole branch is left out by nobody.
+// masks say, and leaves whose whole branch is left out by nobody. A cut with shares is judged by these.
 Agreement agreement(const Cut& cut, const Lights& lights) {
   EXPECT_EQ(static_cast<std::size_t>(cut.lights), lights.lights.size());
   Agreement sum;
@@ -145,17 +152,20 @@ Agreement agreement(const Cut& cut, const Lights& lights) {
     const Cut::Tile& tile =
         cut.tiles[y / interop::TILE * static_cast<std::size_t>(cut.columns()) + x / interop::TILE];
     std::vector<bool> covered(lights.lights.size());
+    Agreement own;
     for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
       const std::uint32_t word = cut.mask_words[cut.masks[i] * interop::MASK_WORDS + bit / 32];
-      sum.add(lights.lights[cut.nodes[i]], gbuffer().pixels[pixel], word >> bit % 32 & 1U);
+      own.add(lights.lights[cut.nodes[i]], gbuffer().pixels[pixel], word >> bit % 32 & 1U);
       covered[cut.nodes[i]] = true;
     }
     for (std::size_t i = 0; i < covered.size(); ++i) {
       const auto& light = lights.lights[i];
       for (std::uint32_t k = 0; k < 4 && light.children != 0 && covered[i]; ++k)
         covered[light.children + k] = true;
-      if (light.children == 0 && !covered[i]) sum.add(light, gbuffer().pixels[pixel], 0);
+      if (light.children == 0 && !covered[i]) own.add(light, gbuffer().pixels[pixel], 0);
     }
+    if (!cut.visibility.empty()) own.judge_share(static_cast<double>(cut.visibility[pixel]));
+    sum.add(own);
   }
   return sum;
 }

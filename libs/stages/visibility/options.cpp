@@ -21,6 +21,7 @@ void add_options(CLI::App& app, VisibilityParams& params) {
   app.add_option("--level", params.level,
                  "maps: level of the tree whose nodes get a map; -1: that with about 1024 nodes")
       ->check(CLI::Range(-1, 32));
+  app.add_option("--rays", params.rays, "ratio: rays a pixel")->check(CLI::Range(1, 64));
   app.add_flag("--exact", params.exact, "rays: one for each node of a tile's cut and pixel");
 }
 

@@ -4,12 +4,17 @@
 #include "base/find_method.h"
 #include "stages/visibility/ism.h"
 #include "stages/visibility/maps.h"
+#include "stages/visibility/ratio.h"
 #include "stages/visibility/rays.h"
 #include "stages/visibility/raytraced.h"
 #include "stages/visibility/visibility.h"
 
 namespace vsgl {
 namespace {
+
+// From about here on rays cost more than three times the ratio estimator; docs/visibility.md has the
+// measurement.
+constexpr std::size_t kManyTriangles = 400'000;
 
 template <class T>
 void check_range(const char* name, T value, T low, T high) {
@@ -24,6 +29,7 @@ void check_params(const VisibilityParams& params) {
   check_range("splat scale", params.splat_scale, 0.0, 4.0);
   check_range("error", params.error, 1e-5, 1.0);
   check_range("level", params.level, -1, 32);
+  check_range("rays", params.rays, 1, 64);
   if (!is_power_of_two(params.tile))
     throw Error(ErrorCode::out_of_range,
                 "tile: " + std::to_string(params.tile) + " is not a power of two; try 64");
@@ -79,7 +85,7 @@ const VisibilityMethod& row(const std::string& name) {
 const std::vector<VisibilityMethod>& visibility_methods() {
   static const std::vector<VisibilityMethod> methods = {
       {.name = "auto",
-       .summary = "ism for a list of lights, rays for a tree",
+       .summary = "ism for a list of lights, rays or ratio for a tree",
        .for_lists = true,
        .for_trees = true},
       {.name = "ism",
@@ -103,6 +109,11 @@ const std::vector<VisibilityMethod>& visibility_methods() {
        .needs_gbuffer = true,
        .needs_device = true,
        .run = visibility::map_cut},
+      {.name = "ratio",
+       .summary = "a preview: the cut without shadows, dimmed by the share of light that a few rays a pixel see",
+       .for_trees = true,
+       .needs_gbuffer = true,
+       .run = visibility::estimate_ratio},
   };
   return methods;
 }
@@ -110,7 +121,11 @@ const std::vector<VisibilityMethod>& visibility_methods() {
 VisibilityChoice choose_visibility(const VisibilityInputs& inputs, const VisibilityParams& params) {
   if (params.method != "auto") return {row(params.method), "asked for"};
   if (!inputs.lights.is_tree()) return {row("ism"), "the lights are a list"};
-  return {row("rays"), "the lights are a tree"};
+  const std::size_t triangles = inputs.scene.triangle_count();
+  const std::string count = "the lights are a tree, and " + std::to_string(triangles) + " triangles are ";
+  if (triangles > kManyTriangles)
+    return {row("ratio"), count + "more than " + std::to_string(kManyTriangles) + ": many for rays"};
+  return {row("rays"), count + "at most " + std::to_string(kManyTriangles)};
 }
 
 Visibility build_visibility(const VisibilityInputs& inputs, const VisibilityParams& params,
