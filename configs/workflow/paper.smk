@@ -22,8 +22,8 @@ rule frames:
     params: timing=timing("frames"), arguments=arguments("frames")
     threads: THREADS
     shell:
-        "mkdir -p {output[0]} && " + run("render", stages="frames") + "{input.scene} --pipeline {input.parameters} {params.arguments} "
-        "-o {output[0]}/%04d.exr"
+        "mkdir -p {output[0]} && " + run("render", stages="frames") + "{input.scene} --pipeline {input.parameters} "
+        "{params.arguments} -o {output[0]}/%04d.exr"
 
 
 rule sequence:

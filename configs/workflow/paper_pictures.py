@@ -79,9 +79,14 @@ class Drawing:
         axes.imshow(numpy.log10(numpy.clip(shown, 1e-3, 1)), cmap="inferno", vmin=-3, vmax=0, interpolation="nearest")
 
     def channel(self, axes, panel):
-        row = self.data.select(panel["of"])[0]
-        values = cropped(exr.channels(row["image"], panel["channel"]), panel.get("crop", self.row.get("crop")))
-        axes.imshow(values, cmap="viridis", vmin=0, vmax=1, interpolation="nearest")
+        """From 0 to the 99th percentile of the row's image that has most of it."""
+        values = [self.values(other) for other in self.row["panels"] if "channel" in other]
+        top = max(float(numpy.quantile(image, 0.99)) for image in values)
+        axes.imshow(self.values(panel), cmap="viridis", vmin=0, vmax=top or 1, interpolation="nearest")
+
+    def values(self, panel):
+        image = exr.channels(self.data.select(panel["of"])[0]["image"], panel["channel"])
+        return cropped(image, panel.get("crop", self.row.get("crop")))
 
     def density(self, axes, panel):
         """Brightness by its square root: kernels' sizes follow that."""
@@ -162,8 +167,8 @@ def draw_density(axes, density, crop):
 
 
 def draw_lights(axes, stages):
-    """Each light where the light source sees it: a disk of radius sqrt(2) sigma [Tokuyoshi 2014], bright by power over area; a
-    dot of one texel where the radius is smaller."""
+    """Each light where the light source sees it: a circle of radius sqrt(2) sigma [Tokuyoshi 2014], bright by power over area;
+    of one texel's radius where it is smaller."""
     found, _ = exr.read(f"{stages['vsgl-gen']}/lights.exr")
     rsm, source = exr.read(f"{stages['rsm-bake']}/rsm.exr")
     size = len(rsm["weight.V"])
@@ -176,14 +181,14 @@ def draw_lights(axes, stages):
     radius = numpy.sqrt(2 * found["variance.V"].ravel()[kept])
     pixels = numpy.maximum(radius / (depth[kept] * source["light.extent_x"]) * size / 2, 0.75)
     brightness = power[kept] / pixels**2
-    brightness = srgb(brightness / numpy.quantile(brightness, 0.9))
+    brightness = 0.1 + 0.9 * srgb(brightness / numpy.quantile(brightness, 0.9))
     axes.set_facecolor("black")
     axes.set_xlim(0, size)
     axes.set_ylim(size, 0)
     axes.set_aspect("equal")
     for i in numpy.argsort(-pixels):
         centre = ((x[i] + 1) * size / 2, (1 - y[i]) * size / 2)
-        axes.add_patch(Circle(centre, pixels[i], color=str(brightness[i]), linewidth=0, alpha=0.8))
+        axes.add_patch(Circle(centre, pixels[i], edgecolor=str(brightness[i]), fill=False, linewidth=1.2))
 
 
 def frame_path(sequence, number, truth):

@@ -120,8 +120,8 @@ class Plan:
                 self.add_frame(scene, frame)
 
     def stage(self, tool, label, inputs, options=None, arguments=(), origin=(), **further):
-        """Returns its folder. inputs: name in the rule -> path, or list of paths, relative to the output folder. further: what else
-        the rule needs to know."""
+        """Returns its folder. inputs: name in the rule -> path, or list of paths, relative to the output folder. further: what
+        else the rule needs to know."""
         if self.experiment.get("repetitions", 1) > 1 and tool in TIMED:
             further["repetitions"] = self.experiment["repetitions"]
         content = {"tool": tool, "options": options, "arguments": list(arguments), "inputs": inputs, **further}

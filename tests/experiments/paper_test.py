@@ -169,7 +169,8 @@ class Strictness(unittest.TestCase):
 
     def test_method_that_the_tools_do_not_have(self):
         image, frames = self.figure["experiment"]["variants"]["modified"], self.figure["sequences"]["pipelines"]
-        for holder, key, place in ((image, "pipeline", "/experiment/variants/modified"), (frames, "modified", "/sequences/pipelines")):
+        places = [(image, "pipeline", "/experiment/variants/modified"), (frames, "modified", "/sequences/pipelines/modified")]
+        for holder, key, place in places:
             right = holder[key]
             holder[key] = right | {"vsgl_gen": {"method": "fis-1816"}}
             figure = self.read()
