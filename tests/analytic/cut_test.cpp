@@ -28,11 +28,11 @@ std::ostream& operator<<(std::ostream& out, const Setting& setting) {
   return out << setting.name;
 }
 const Setting kSettings[] = {
-    {"cornell", "cornell", {}, 128, 0.005, 0.02, 0.05, 0.008},
-    {"cornell_glossy", "cornell-glossy", 0.2, 128, 0.02, 0.03, 0.05, 0.012},
+    {"cornell", "cornell", {}, 128, 0.005, 0.02, 0.05, 0.03},
+    {"cornell_glossy", "cornell-glossy", 0.2, 128, 0.02, 0.03, 0.05, 0.11},
     {"cornell_glossy_sharp", "cornell-glossy", 0.05, 2048, 0.02, 0.03, 0.05, 0.02},
     {"caustic_ring", "caustic-ring", {}, 1024, 0.02, 0.03, 0.05, 0.03},
-    {"atrium", "atrium", {}, 64, 0.02, 0.03, 0.065, 0.08},  // maps: 5% is missed, by 0.8%
+    {"atrium", "atrium", {}, 64, 0.02, 0.03, 0.065, 0.03},  // maps: 5% is missed, by 0.8%
 };
 std::string name_of(const testing::TestParamInfo<Setting>& info) {
   return info.param.name;
@@ -162,7 +162,7 @@ TEST_P(CutSeams, DoNotShow) {
       seams->excess.median, seams->excess.p99, seams->excess.max, seams->worst_x, seams->worst_y);
   EXPECT_GT(seams->borders, seams->left_out);
   EXPECT_LT(seams->excess.max, setting.seam);
-  EXPECT_LT(seams->excess.median, 0.001);
+  EXPECT_LT(seams->excess.median, 0.002);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, CutSeams, testing::ValuesIn(kSettings), name_of);
