@@ -5,6 +5,7 @@
 
 #include "base/tool.h"
 #include "stages/cut/options.h"
+#include "stages/shading/accumulate.h"
 #include "stages/shading/options.h"
 
 namespace {
@@ -12,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  fs::path gbuffer, lights, ism, cut, rsm, output;
+  fs::path gbuffer, lights, ism, cut, rsm, accumulate, output;
   vsgl::ShadingParams params;
   vsgl::CutParams cut_params;  // of a tree that comes without a cut
 };
@@ -25,8 +26,10 @@ void declare(vsgl::Tool& tool, Arguments& a) {
   CLI::Option* cut = tool.input("--cut", a.cut, "cut of light-cut through a tree (default: chosen here)");
   cut->excludes(ism);
   tool.input("--rsm", a.rsm, "reflective shadow map: adds its direct light as a layer");
+  tool.input("--accumulate", a.accumulate, "mean of the passes before this one: writes that of all");
   tool.output("-o,--output", a.output, "radiance to write")->required();
   vsgl::add_options(tool.app(), a.params);
+  vsgl::add_pass_options(tool.app(), a.params.pass);
   vsgl::add_options(tool.app(), a.cut_params);
   tool.app().get_option("--error")->excludes(ism)->excludes(cut);  // they have been made for an error
 }
@@ -43,6 +46,7 @@ vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl:
   if (!a.cut.empty()) visibility = read("read cut", vsgl::read_cut, a.cut);
   if (!visibility && lights.is_tree()) visibility = vsgl::build_cut(gbuffer, lights, a.cut_params, report);
   a.params.skip = !tool.common().no_skip;
+  a.params.seed = tool.common().seed;
 
   vsgl::gpu::Device device(
       {.device = tool.common().device, .threads = tool.common().threads, .compute_only = true});
@@ -51,6 +55,8 @@ vsgl::Exit run(const vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl:
       vsgl::shade(gbuffer, lights, visibility ? &*visibility : nullptr, a.params, device, report);
   if (!a.rsm.empty())
     vsgl::shade_direct(gbuffer, read("read rsm", vsgl::read_rsm, a.rsm), device, report, image);
+  if (!a.accumulate.empty())
+    image = accumulate(read("read mean", vsgl::read_indirect, a.accumulate), image, a.params.pass.number);
 
   const vsgl::PhaseTimer timer(report, "write");
   vsgl::write(outputs.add(a.output), image, tool.provenance());

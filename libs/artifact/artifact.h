@@ -75,6 +75,11 @@ struct Pdf {
 void write(const std::filesystem::path& path, const Pdf& pdf, const Provenance& provenance);
 Pdf read_pdf(const std::filesystem::path& path);
 
+// What a list of lights holds: lights on surfaces, or lights of an environment, infinitely far away. Those
+// have no position; their power is what arrives on a plane that faces them, W/m^2, and their diffuse lobe its
+// directions, with the axis along the light. Their anchor is 0 and their scene's radius 1: they fit any scene.
+enum class LightsKind { points, environment };
+
 // Markov chains that sample an RSM (vsgl-gen --method metropolis) and go on in the next frame.
 struct Chains {
   std::vector<interop::Chain> states;
@@ -83,7 +88,8 @@ struct Chains {
 
 // Virtual lights, or a tree of them: all nodes, level by level from the root. `anchor` as in the RSM.
 struct Lights {
-  std::string method;  // vpl | fis-2014 | fis-2016 | texels | tree
+  LightsKind kind = LightsKind::points;
+  std::string method;  // of vsgl-gen
   Vec3 anchor;
   double scene_radius = 1;
   int requested = 0;  // samples drawn; lights without power are dropped
@@ -173,9 +179,16 @@ struct Cut {
 void write(const std::filesystem::path& path, const Cut& cut, const Provenance& provenance);
 Cut read_cut(const std::filesystem::path& path);
 
+// Every pixel sees every light.
+struct Unshadowed {
+  int lights = 0;
+  Vec3 anchor;
+};
+void write(const std::filesystem::path& path, const Unshadowed& unshadowed, const Provenance& provenance);
+
 // How the lights are seen: what ismap writes and shade looks up. `read_visibility` tells them apart by
 // schema.
-using Visibility = std::variant<ShadowMaps, VisibilityBits, Cut>;
+using Visibility = std::variant<ShadowMaps, VisibilityBits, Cut, Unshadowed>;
 void write(const std::filesystem::path& path, const Visibility& visibility, const Provenance& provenance);
 Visibility read_visibility(const std::filesystem::path& path);
 
@@ -189,6 +202,7 @@ struct Indirect {
                                       // approximation was cancelled
   std::vector<float> cut_size;        // entries of the cut of the pixel's tile
   std::vector<float> error_estimate;  // relative, of what the cut of the pixel's tile leaves out
+  int passes = 1;                     // of progressive rendering, whose mean this is
 };
 void write(const std::filesystem::path& path, const Indirect& indirect, const Provenance& provenance);
 Indirect read_indirect(const std::filesystem::path& path);

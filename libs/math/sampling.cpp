@@ -141,6 +141,10 @@ std::array<std::uint32_t, 3> pcg3d(std::array<std::uint32_t, 3> v) {
   return v;
 }
 
+std::array<std::uint32_t, 2> r2_bits(std::uint32_t k) {
+  return {k * 0xC13FA9A9u, k * 0x91E10DA5u};
+}
+
 std::array<std::uint32_t, 2> point_bits(const interop::PointSet& set, std::uint32_t i) {
   if (set.kind == interop::POINTS_RANDOM) {
     const auto hash = pcg3d({i, set.seed.x, set.seed.y});

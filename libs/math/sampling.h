@@ -50,6 +50,8 @@ std::uint32_t lattice_generator(std::uint32_t count);
 std::uint64_t lattice_shortest_squared(std::uint32_t count, std::uint32_t generator);
 
 std::array<std::uint32_t, 3> pcg3d(std::array<std::uint32_t, 3> v);
+// [Roberts 2018] point k of the sequence R2, in 32-bit fixed point.
+std::array<std::uint32_t, 2> r2_bits(std::uint32_t k);
 // Point i, in 32-bit fixed point and as [0,1)^2 (the upper 24 bits).
 std::array<std::uint32_t, 2> point_bits(const interop::PointSet& set, std::uint32_t i);
 std::array<double, 2> point(const interop::PointSet& set, std::uint32_t i);

@@ -20,6 +20,11 @@ void check_schema(const JsonValue& root) {
                 schema.where() + ": expected \"" + kSchema + "\", got \"" + schema.string() + "\"");
 }
 
+void add_options(CLI::App& app, Progressive& progressive) {
+  app.add_option("--passes", progressive.passes)->check(CLI::Range(1, max_passes));
+  app.add_option("--alpha", progressive.alpha)->check(CLI::Range(0.0, 1.0));
+}
+
 template <class... Params>
 void read_stage(const JsonValue& root, const std::string& key, Params&... params) {
   const auto object = root.find(key);
@@ -44,12 +49,13 @@ Pipeline read_pipeline(const std::filesystem::path& path) {
   else
     read_stage(root, "ismap", *pipeline.ismap);
   read_stage(root, "shade", pipeline.shade, pipeline.light_cut);
+  if (root.find("progressive")) read_stage(root, "progressive", pipeline.progressive.emplace());
   root.finish();
   return pipeline;
 }
 
 void Pipeline::set_seed(std::uint64_t seed) {
-  pdf_build.seed = vsgl_gen.seed = seed;
+  pdf_build.seed = vsgl_gen.seed = shade.seed = seed;
   if (ismap) ismap->seed = seed;
 }
 

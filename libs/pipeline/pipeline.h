@@ -15,6 +15,12 @@
 
 namespace vsgl {
 
+// Passes of progressive rendering: lights, what they see and the image anew each time, see base/pass.h.
+struct Progressive {
+  int passes = 64;               // 1..max_passes
+  double alpha = Pass{}.alpha;
+};
+
 struct Pipeline {
   BakeParams rsm_bake;
   PdfParams pdf_build;
@@ -22,6 +28,7 @@ struct Pipeline {
   std::optional<VisibilityParams> ismap = VisibilityParams{};  // none: no shadows
   CutParams light_cut;  // of a tree of lights, without ismap, which chooses the cut itself
   ShadingParams shade;
+  std::optional<Progressive> progressive;  // none: one pass
 
   void set_seed(std::uint64_t seed);
   void set_skip(bool skip);  // leave out what the scene does not need

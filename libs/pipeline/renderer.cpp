@@ -3,6 +3,9 @@
 #include <chrono>
 #include <utility>
 
+#include "base/error.h"
+#include "stages/shading/accumulate.h"
+
 namespace vsgl {
 namespace {
 
@@ -27,6 +30,7 @@ void Renderer::run(RenderedFrame& frame, const char* tool, const std::function<v
 void Renderer::take(scene::Scene scene) {
   if (baker_ && same_surfaces(scene, scene_)) {
     scene_.camera = scene.camera;
+    scene_.environment = scene.environment;
     scene_.lights = std::move(scene.lights);
   } else {
     scene_ = std::move(scene);
@@ -39,7 +43,50 @@ void Renderer::take(scene::Scene scene) {
 
 void Renderer::bake(RenderedFrame& frame) {
   frame.gbuffer = baker_->gbuffer();
-  frame.rsm = baker_->rsm(pipeline_.rsm_bake.rsm);
+  if (!lit_by_environment() || direct_) frame.rsm = baker_->rsm(pipeline_.rsm_bake.rsm);
+}
+
+const scene::Environment& Renderer::environment() {
+  if (!scene_.environment)
+    throw Error(ErrorCode::missing_option,
+                "environment: method environment needs one; give the scene a map, \"environment\": "
+                "{\"file\": \"map.exr\"}");
+  if (environment_spec_ != scene_.environment) {
+    const PhaseTimer timer(report_, "read environment");
+    environment_ = scene::read_environment(*scene_.environment);
+    environment_spec_ = scene_.environment;
+  }
+  return environment_;
+}
+
+void Renderer::generate(RenderedFrame& frame) {
+  pipeline_.vsgl_gen.previous = chains_.states.empty() ? nullptr : &chains_;
+  if (lit_by_environment())
+    frame.lights = generate_environment_lights(environment(), pipeline_.vsgl_gen, device_, report_);
+  else
+    frame.lights =
+        generate_lights(frame.rsm, frame.pdf ? &*frame.pdf : nullptr, pipeline_.vsgl_gen, &device_, report_);
+  chains_ = frame.lights.chains;
+}
+
+void Renderer::run_pass(RenderedFrame& frame, const Pass& pass) {
+  pipeline_.vsgl_gen.pass = pipeline_.shade.pass = pass;
+  run(frame, "vsgl-gen", [&] { generate(frame); });
+  if (pipeline_.ismap)
+    run(frame, "ismap", [&] {
+      frame.visibility =
+          build_visibility({scene_, frame.lights, &frame.gbuffer}, *pipeline_.ismap, &device_, report_);
+    });
+  else if (frame.lights.is_tree())
+    run(frame, "light-cut",
+        [&] { frame.visibility = build_cut(frame.gbuffer, frame.lights, pipeline_.light_cut, report_); });
+  run(frame, "shade", [&] {
+    Indirect image = shade(frame.gbuffer, frame.lights, frame.visibility ? &*frame.visibility : nullptr,
+                           pipeline_.shade, device_, report_);
+    if (direct_) shade_direct(frame.gbuffer, frame.rsm, device_, report_, image);
+    frame.image =
+        pass.number == 1 ? std::move(image) : accumulate(std::move(frame.image), image, pass.number);
+  });
 }
 
 RenderedFrame Renderer::render(scene::Scene scene) {
@@ -52,25 +99,8 @@ RenderedFrame Renderer::render(scene::Scene scene) {
   if (lights_method(pipeline_.vsgl_gen.method).needs_pdf)
     run(frame, "pdf-build",
         [&] { frame.pdf = build_pdf(frame.rsm, &frame.gbuffer, pipeline_.pdf_build, device_, report_); });
-  run(frame, "vsgl-gen", [&] {
-    pipeline_.vsgl_gen.previous = chains_.states.empty() ? nullptr : &chains_;
-    frame.lights =
-        generate_lights(frame.rsm, frame.pdf ? &*frame.pdf : nullptr, pipeline_.vsgl_gen, &device_, report_);
-    chains_ = frame.lights.chains;
-  });
-  if (pipeline_.ismap)
-    run(frame, "ismap", [&] {
-      frame.visibility =
-          build_visibility({scene_, frame.lights, &frame.gbuffer}, *pipeline_.ismap, &device_, report_);
-    });
-  else if (frame.lights.is_tree())
-    run(frame, "light-cut",
-        [&] { frame.visibility = build_cut(frame.gbuffer, frame.lights, pipeline_.light_cut, report_); });
-  run(frame, "shade", [&] {
-    frame.image = shade(frame.gbuffer, frame.lights, frame.visibility ? &*frame.visibility : nullptr,
-                        pipeline_.shade, device_, report_);
-    if (direct_) shade_direct(frame.gbuffer, frame.rsm, device_, report_, frame.image);
-  });
+  const Progressive progressive = pipeline_.progressive.value_or(Progressive{.passes = 1});
+  for (int number = 1; number <= progressive.passes; ++number) run_pass(frame, {number, progressive.alpha});
   frame.pipelines_built = device_.pipelines_built() - built_before;
   return frame;
 }

@@ -19,10 +19,10 @@ struct StageRun {
   Report report;
 };
 
-// A frame with everything that led to it.
+// A frame with everything that led to it; lights and visibility are those of the last pass.
 struct RenderedFrame {
   GBuffer gbuffer;
-  Rsm rsm;
+  Rsm rsm;                   // without layers where nothing needs it: the lights are an environment's
   std::optional<Pdf> pdf;  // none: the lights do not follow one
   Lights lights;
   std::optional<Visibility> visibility;  // none: no shadows, and no cut to choose
@@ -50,6 +50,11 @@ class Renderer {
   void run(RenderedFrame& frame, const char* tool, const std::function<void()>& work);
   void take(scene::Scene scene);
   void bake(RenderedFrame& frame);
+  bool lit_by_environment() const { return lights_method(pipeline_.vsgl_gen.method).of_environment; }
+  void generate(RenderedFrame& frame);
+  // Lights, what they see, and the image: the frame's mean of the passes so far.
+  void run_pass(RenderedFrame& frame, const Pass& pass);
+  const scene::Environment& environment();  // of scene_
 
   gpu::Device& device_;
   Pipeline pipeline_;
@@ -58,6 +63,8 @@ class Renderer {
   scene::Scene scene_;
   Report report_;               // of the stage that is running
   std::optional<Baker> baker_;  // of scene_
+  std::optional<scene::EnvironmentSpec> environment_spec_;  // of environment_
+  scene::Environment environment_;
 };
 
 }  // namespace vsgl

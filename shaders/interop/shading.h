@@ -43,6 +43,18 @@ struct ShadingSums {
 };
 VSGL_CHECK_SIZE(ShadingSums, 32)
 
+// Virtual spherical lights: how the integral over a light's cone is sampled.
+struct VslSampling {
+  uint samples;     // directions a technique draws in a hemisphere; narrower cones take fewer
+  uint techniques;  // sum of VSL_*
+  uint sphere;      // 1: cone of the sphere, 0: of the disk
+  uint seed;
+};
+VSGL_CHECK_SIZE(VslSampling, 16)
+VSGL_CONST uint VSL_CONE = 1u;      // uniform in the cone
+VSGL_CONST uint VSL_RECEIVER = 2u;  // the BRDF of the pixel
+VSGL_CONST uint VSL_LIGHT = 4u;     // the BRDF of the light
+
 struct ShadingPush {
   vec3 camera;            // relative to the anchor, m
   uint receivers;         // in the list
@@ -57,8 +69,9 @@ struct ShadingPush {
   float relative_bias;
   uint first_row;   // of the atlas: light `index` has its map in tile row index / columns - first_row
   uint first_word;  // of the block's lights: light `index` has bit index % 32 of word index / 32 - first_word
+  VslSampling vsl;
 };
-VSGL_CHECK_SIZE(ShadingPush, 60)
+VSGL_CHECK_SIZE(ShadingPush, 76)
 
 // Kinds of visibility.
 VSGL_CONST uint VISIBILITY_NONE = 0u;

@@ -101,6 +101,7 @@ std::vector<LibraryFile> gaussian_files();
 std::vector<LibraryFile> surface_files();
 std::vector<LibraryFile> light_files();
 std::vector<LibraryFile> sampling_files();
+std::vector<LibraryFile> vsl_files();
 
 // Every combination of one row from each list, joined.
 std::vector<Row> combinations(std::initializer_list<std::vector<Row>> lists);

@@ -4,11 +4,13 @@
 #include "math/kernel_size.h"
 #include "math/metropolis.h"
 #include "math/sampling.h"
+#include "math/subdivision.h"
 #include "shader_library.h"
 #include "spirv/test/library/hash.comp.glsl.h"
 #include "spirv/test/library/kernel_size.comp.glsl.h"
 #include "spirv/test/library/metropolis.comp.glsl.h"
 #include "spirv/test/library/sampling.comp.glsl.h"
+#include "spirv/test/library/subdivision.comp.glsl.h"
 #include "spirv/test/library/taps.comp.glsl.h"
 
 namespace vsgl::test {
@@ -113,11 +115,13 @@ LibraryFile hash() {
   const auto hashed = [](Arguments& a) {
     const std::uint32_t x = a.take_word(), y = a.take_word();
     const auto v = pcg3d({x, y, a.take_word()});
-    return Values() << v[0] << v[1] << v[2] << std::ldexp(v[0] >> 8, -24) << std::ldexp(v[1] >> 8, -24);
+    const auto bits = r2_bits(v[2]);
+    return Values() << v[0] << v[1] << v[2] << std::ldexp(v[0] >> 8, -24) << std::ldexp(v[1] >> 8, -24)
+                    << bits[0] << bits[1];
   };
   return {"hash",
           hash_comp_spv,
-          {{"pcg3d",
+          {{"pcg3d, point_of_bits, r2_bits",
             combinations({words({0, 1, 0xffffffff}), words({0, 77}), words({5, 0x80000000})}),
             hashed,
             {}}}};
@@ -162,6 +166,27 @@ LibraryFile sampling() {
             warped,
             {0, 1e-3}}},
           appendix()};
+}
+
+LibraryFile subdivision() {
+  const auto root = [](Arguments& a) { return Values() << integer_root(a.take_word()); };
+  const auto point = [](Arguments& a) {
+    const std::uint32_t k = a.take_word(), cell = a.take_word();
+    const double x = a.take();
+    return Values() << subdivision_point(k, cell, {x, a.take()});
+  };
+  // Just below, at and above squares.
+  std::vector<Row> squares = words({0, 1, 2, 3, 0xffffffff});
+  for (const std::uint32_t r : {2u, 1000u, 4097u, 65535u})
+    for (const std::uint32_t x : {r * r - 1, r * r, r * r + 1}) squares.push_back({word(x)});
+  return {"subdivision",
+          subdivision_comp_spv,
+          {{"integer_root", squares, root, {}},
+           {"subdivision_point",
+            combinations({words({2048}), words({0, 1, 2, 3, 8, 4194303, 1047551}), numbers({0, 0.3}),
+                          numbers({0, 0.4})}),
+            point,
+            {1e-6, 1e-6}}}};
 }
 
 LibraryFile kernel_size() {
@@ -275,7 +300,7 @@ LibraryFile metropolis() {
 }  // namespace
 
 std::vector<LibraryFile> sampling_files() {
-  return {taps(), hash(), sampling(), kernel_size(), metropolis()};
+  return {taps(), hash(), sampling(), kernel_size(), subdivision(), metropolis()};
 }
 
 }  // namespace vsgl::test

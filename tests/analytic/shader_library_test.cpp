@@ -80,7 +80,7 @@ struct Push {
 
 std::vector<LibraryFile> library_files() {
   std::vector<LibraryFile> files;
-  for (auto topic : {gaussian_files, surface_files, light_files, sampling_files})
+  for (auto topic : {gaussian_files, surface_files, light_files, sampling_files, vsl_files})
     for (LibraryFile& file : topic()) files.push_back(std::move(file));
   return files;
 }

@@ -32,7 +32,7 @@ SMALL = {
     "shade": {"light_model": "vsgl"},
 }
 TREE = {"vsgl_gen": {"method": "tree"}, "ismap": {"method": "auto"}, "shade": {"light_model": "fvpl"}}
-FOR_LISTS = ("auto", "ism", "raytraced")  # methods of ismap
+FOR_LISTS = ("auto", "ism", "aism", "tessellated", "raytraced", "none")  # methods of ismap
 # Changes to SMALL; None takes a stage away.
 PIPELINES = {
     "default": TREE,
@@ -157,6 +157,33 @@ class RenderTest:
         if (self.folder / f"{apart}.exr").exists():
             self.require_same(f"{apart}.exr", f"{apart}/image.exr")
 
+    def check_environment(self):
+        """Lit by the environment that the scene names, turned and scaled, a scene without lights renders as with the tools."""
+        self.tool("scene-gen", "sky", "--resolution", "32x18", "-o", "sky.json")
+        scene = json.loads((self.folder / "sky.json").read_text())
+        scene["environment"].update({"rotation_deg": [0, 40, 10], "scale": 0.5})
+        scene["lights"] = []
+        (self.folder / "sky.json").write_text(json.dumps(scene))
+        document = {"$schema": SCHEMA, "vsgl_gen": {"method": "environment", "count": 40}, "ismap": {"method": "auto"},
+                    "shade": {"light_model": "vsgl"}}
+        (self.folder / "sky").mkdir()
+        self.render("sky", document, "sky/image.exr", "--keep", "sky")
+        made = sorted(path.name for path in (self.folder / "sky").iterdir())
+        require(made == ["gbuffer.exr", "image.exr", "ism.exr", "lights.exr"], f"kept: {made}")
+        self.tool("rsm-bake", "sky.json", "--gbuffer", "sky-gbuffer.exr")
+        self.tool("vsgl-gen", "--method", "environment", "--count", "40", "--environment", "sky-sky.exr",
+                  "--environment-rotation", "0,40,10", "--environment-scale", "0.5", "-o", "sky-lights.exr")
+        self.tool("ismap", "sky.json", "--lights", "sky-lights.exr", "--gbuffer", "sky-gbuffer.exr", "-o", "sky-ism.exr")
+        self.tool("shade", "--light-model", "vsgl", "--gbuffer", "sky-gbuffer.exr", "--lights", "sky-lights.exr", "--ism", "sky-ism.exr",
+                  "-o", "sky-image.exr")
+        for name in made:
+            self.require_same(f"sky/{name}", f"sky-{name}")
+        refused = [self.bin / "render", "sky.json", "-o", "dark.exr"]
+        run(refused, cwd=self.folder).expect_error(3, "E3020: .*environment")
+        (self.folder / "pipeline.json").write_text(json.dumps(document))
+        run([self.bin / "render", "cornell-glossy.json", "--pipeline", "pipeline.json", "-o", "dark.exr"], cwd=self.folder).expect_error(
+            2, "E2004: .*environment")
+
     def check_frames(self):
         self.tool("scene-gen", "cornell-glossy", "--resolution", "48x32", "--animate", "object", "--frames", "3", "-o", "moving.json")
         for name, document, kept in (("vsgl", pipeline({}), KEPT), ("tree", pipeline(TREE), [name for name in KEPT if name != "pdf.exr"])):
@@ -177,6 +204,38 @@ class RenderTest:
                 require((self.folder / f"{into}/{name[:-4]}.{frame:04}.exr").is_file(), f"{name} of frame {frame} is missing")
         require(len(set(images)) == 3, "the frames do not differ")
 
+    def check_passes(self):
+        """Progressive rendering gives the bytes that the tools give pass by pass."""
+        chain = {"pdf_build": {"method": "flux"}, "vsgl_gen": {"method": "vsl"}, "ismap": {"method": "raytraced"}, "shade": {"light_model": "vsl"}}
+        document = pipeline(chain)
+        self.render("cornell-glossy", {**document, "progressive": {"passes": 3, "alpha": 0.5}}, "passes.exr", "--direct")
+        (self.folder / "passes").mkdir()
+        at = lambda name: f"passes/{name}.exr"
+        stage = lambda key, *paths: self.tool(STAGES[key], *paths, *flags(document[key]), "--overwrite")
+        stage("rsm_bake", "cornell-glossy.json", "--gbuffer", at("gbuffer"), "--rsm", at("rsm"))
+        stage("pdf_build", "--rsm", at("rsm"), "--gbuffer", at("gbuffer"), "-o", at("pdf"))
+        for number in ("1", "2", "3"):
+            of_pass = ["--pass", number, "--pass-alpha", "0.5"]
+            stage("vsgl_gen", "--rsm", at("rsm"), "--pdf", at("pdf"), "-o", at("lights"), *of_pass)
+            stage("ismap", "cornell-glossy.json", "--lights", at("lights"), "--gbuffer", at("gbuffer"), "-o", at("ism"))
+            before = ["--accumulate", at(f"mean{int(number) - 1}")] if number != "1" else []
+            stage("shade", "--gbuffer", at("gbuffer"), "--lights", at("lights"), "--ism", at("ism"), "--rsm", at("rsm"), *before, *of_pass,
+                  "-o", at(f"mean{number}"))
+        self.require_same("passes.exr", at("mean3"))
+        require(read_exr(self.folder / at("mean2"))[1] != read_exr(self.folder / at("mean3"))[1], "the third pass changes nothing")
+
+    def check_chains(self):
+        """Markov chains go on from frame to frame as --previous makes them do."""
+        (self.folder / "chains").mkdir()
+        self.tool("scene-gen", "cornell-glossy", "--resolution", "48x32", "--animate", "camera", "--frames", "2", "-o", "turning.json")
+        options = {"method": "metropolis", "count": 64, "mutations": 2, "large_step": 0.5}
+        self.render("turning", pipeline({"vsgl_gen": options}), "chains/image.%04d.exr", "--frames", "0:1", "--keep", "chains")
+        given = ["--rsm", "chains/rsm.0001.exr", "--pdf", "chains/pdf.0001.exr", *flags(options)]
+        self.tool("vsgl-gen", *given, "--previous", "chains/lights.0000.exr", "-o", "chains/next.exr")
+        self.require_same("chains/lights.0001.exr", "chains/next.exr")
+        self.tool("vsgl-gen", *given, "-o", "chains/alone.exr")
+        require(read_exr(self.folder / "chains/alone.exr")[1] != read_exr(self.folder / "chains/next.exr")[1], "the frame before plays no part")
+
     def check_threads(self):
         for document in (pipeline({}), pipeline(TREE)):
             for threads in ("1", "2"):
@@ -192,6 +251,8 @@ class RenderTest:
             require(methods, f"{tool} lists no methods")
             key = "light_model" if tool == "shade" else "method"
             for method in methods:
+                if method == "environment":  # see check_environment
+                    continue
                 on_tree = method == "tree" or (stage == "ismap" and method not in FOR_LISTS)
                 base = TREE if on_tree else {}
                 self.render("cornell-glossy", pipeline({**base, stage: {key: method}}), "method.exr")
@@ -211,7 +272,7 @@ class RenderTest:
         same = lambda *options: self.tool("render", "cornell-glossy.json", "--resolution", "16x16", "-o", "error.exr", "--overwrite", *options)
         images = []
         (self.folder / "pipeline.json").write_text(json.dumps(pipeline(TREE)))
-        for options in ([], ["--error", "0.02"], ["--error", "0.3"]):
+        for options in ([], ["--error", "0.1"], ["--error", "0.5"]):
             same("--pipeline", "pipeline.json", *options)
             images.append(read_exr(self.folder / "error.exr")[1])
         require(images[0] == images[1] != images[2], "--error does not replace the pipeline's")
@@ -223,7 +284,7 @@ class RenderTest:
             options = help_text.parse(self.tool(tool, "--help").out).options
             shared = help_text.parse(self.tool("scene-gen", "--help").out).options
             wanted = {option.key: option for option in options
-                      if option.type != "FILE" and option.long not in ("--frame", "--list-methods", "--dump")
+                      if option.type != "FILE" and option.long not in ("--frame", "--list-methods", "--dump", "--pass", "--pass-alpha", "--environment-rotation", "--environment-scale")
                       and (option.long == "--resolution" or option.long not in [other.long for other in shared])}
             known = schema["properties"][stage]["properties"]
             require(sorted(wanted) == sorted(known), f"schema of {stage}: {sorted(known)}, {tool} takes {sorted(wanted)}")
@@ -256,7 +317,7 @@ def main():
         test = RenderTest(bin_dir, pathlib.Path(temporary))
         checks = [(f"{scene}, {name}: the tools' artifacts", lambda s=scene, n=name: test.check_same_as_tools(s, n))
                   for name in PIPELINES for scene in SCENES if scene == "cornell-glossy" or name in ON_BOTH]
-        checks += [("frames of a sequence", test.check_frames), ("the same bytes on two threads", test.check_threads),
+        checks += [("an environment", test.check_environment), ("frames of a sequence", test.check_frames), ("Markov chains", test.check_chains), ("passes", test.check_passes), ("the same bytes on two threads", test.check_threads),
                    ("every method", test.check_methods), ("defaults", test.check_defaults), ("schema", test.check_schema),
                    ("report", test.check_report)]
         return run_checks(checks)

@@ -1,8 +1,11 @@
 #include "stages/lights/filtered.h"
 
+#include <algorithm>
+
 #include "math/interop_vec.h"
 #include "math/light_source.h"
 #include "math/lobe.h"
+#include "math/progressive.h"
 #include "stages/lights/methods.h"
 
 namespace vsgl {
@@ -27,6 +30,15 @@ double power_ratio(const Rsm& rsm, const std::vector<interop::Light>& lights) {
   return reflected > 0 ? emitted / reflected : 1;
 }
 
+// What is left of a texel's variance where a pass wants a kernel smaller than a texel. Its share of the samples
+// is wanted to be T = K g / N, g = radius2_scale(), and a texel's is F = p / M = 1 / (N power_scale): the
+// variance is T / F of a texel's, over what that was in the first pass if T was too small already then.
+double shrink_below_texel(const interop::Kernel& kernel, const LightsParams& params) {
+  if (kernel.level > 0) return 1;
+  const double first_share = params.kernel_scale * static_cast<double>(kernel.power_scale);
+  return std::min(1.0, radius2_scale(params.pass) * std::max(1.0, first_share));
+}
+
 }  // namespace
 
 void represent(interop::Light& light, const RsmLayer& layer) {
@@ -48,8 +60,8 @@ KernelParams kernel_params(const LightsParams& params, std::uint32_t rule) {
   out.count = static_cast<std::uint32_t>(params.count);
   out.points = point_set_kind(params.points);
   out.rule = rule;
-  out.scale = params.kernel_scale;
-  out.seed = params.seed;
+  out.scale = params.kernel_scale * radius2_scale(params.pass);
+  out.seed = pass_seed(params.seed, params.pass);
   return out;
 }
 
@@ -72,8 +84,11 @@ void conserve_power(const Rsm& rsm, const LightsParams& params, std::vector<inte
 
 std::vector<interop::Light> sample_lights(const Rsm& rsm, const Pdf& pdf, const LightsParams& params,
                                           std::uint32_t rule, gpu::Device& device, Report& report) {
-  return filter_lights(rsm, draw_kernels(densities_of(pdf), kernel_params(params, rule), device, report),
-                       params, device, report);
+  const auto kernels = draw_kernels(densities_of(pdf), kernel_params(params, rule), device, report);
+  auto lights = filter_lights(rsm, kernels, params, device, report);
+  for (std::size_t i = 0; i < lights.size() && rule != interop::KERNEL_TEXEL; ++i)
+    lights[i].variance *= static_cast<float>(shrink_below_texel(kernels[i], params));
+  return lights;
 }
 
 std::vector<interop::Light> filter_lights(const Rsm& rsm, std::span<const interop::Kernel> kernels,

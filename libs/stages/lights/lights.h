@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "artifact/artifact.h"
+#include "base/pass.h"
 #include "base/report.h"
 #include "gpu/device.h"
+#include "scene/environment.h"
 
 namespace vsgl {
 
@@ -24,23 +26,35 @@ struct LightsParams {
   std::string power = "conserved";       // fis-2016: conserved (adds up to the RSM's) | paper (as printed)
   std::string points = "lattice";        // lattice | fibonacci | random
   std::string lobe_filter = "banerjee";  // one of lobe_filter_names(): how lobes are averaged
-  int level = -1;     // tree: -1, all of it; 0..64, a list of that level's nodes and of the leaves above it
+  int level = -1;  // tree: -1, all of it; 0..64, a list of that level's nodes and of the leaves above it
+  int environment_size = 512;  // environment: rows of texels at most, a power of two, 8..2048
+  int vsl_neighbours = 10;      // vsl: k >= 1; a light reaches as far as its k-th nearest
+  double vsl_radius_scale = 1;  // vsl: times that distance, above 0
   int mutations = 1;  // metropolis: of each chain, from frame to frame, 0..100000
   double large_step = 1;             // metropolis: probability that a mutation goes anywhere, 0..1
   const Chains* previous = nullptr;  // metropolis: what the frame before left; none: chains begin anew
   std::uint64_t seed = 0;
+  Pass pass{};  // of methods that sample anew in each pass
 };
 
 // Lights of `rsm` sampled by `pdf`. Density and device may be null where the method does not need them (see
-// LightsMethod). Samples without power give no light; the others keep the samples' order. The same inputs
+// LightsMethod); the method is not of an environment. Samples without power give no light; the others keep the samples' order. The same inputs
 // give the same bytes for any number of threads. Throws bad_value, out_of_range, missing_option (no density),
 // wrong_size when the density is of another RSM, device_limit.
 Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device* device,
                        Report& report);
 
+// Lights of an environment, sampled in proportion to the luminance that arrives from its texels; `params` names
+// the method "environment". Powers add up to the map's radiance integrated over all directions. Throws
+// bad_value, out_of_range, device_limit.
+Lights generate_environment_lights(const scene::Environment& environment, const LightsParams& params,
+                                   gpu::Device& device, Report& report);
+
 // What lights.json holds (configs/schema/lights.schema.json): parameters, statistics and, with `dump`, the
 // lights.
 nlohmann::ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& params, bool dump);
+nlohmann::ordered_json describe(const Lights& lights, const scene::Environment& environment,
+                                const LightsParams& params, bool dump);
 
 // What a method makes: a list, or a tree with its levels (see Lights), and the chains that sampled it.
 struct LightSet {
@@ -55,7 +69,9 @@ struct LightsMethod {
   std::string name;
   std::string summary;  // one line, for --list-methods
   bool needs_pdf = true, needs_device = true;
-  LightSet (*run)(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+  LightSet (*run)(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&) = nullptr;
+  bool has_passes = false;      // samples anew, for smaller lights, in each pass of progressive rendering
+  bool of_environment = false;  // generate_environment_lights() runs it; `run` is null
 };
 const std::vector<LightsMethod>& lights_methods();
 // The row of that name. Throws bad_value, listing those that are there.

@@ -16,11 +16,19 @@ inline bool has_power(const interop::Light& light) {
 }
 
 LightSet generate_vpl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+LightSet generate_vsl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_fis_2014(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_fis_2016(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_metropolis(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_texels(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_two_vsgl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_tree(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+
+
+// The lights of an environment that have power, in the samples' order.
+std::vector<interop::Light> sample_environment(const scene::Environment&, const LightsParams&, gpu::Device&,
+                                               Report&);
+// An environment's radiance integrated over all directions, W/m^2.
+Vec3 environment_power(const scene::Environment&);
 
 }  // namespace vsgl

@@ -36,6 +36,14 @@ void add_options(CLI::App& app, LightsParams& params) {
          "--level", params.level,
          "tree: -1, all of it; else a plain list of this level's nodes (0: the root) and the leaves above")
       ->check(CLI::Range(-1, 64));
+  app.add_option("--vsl-neighbours", params.vsl_neighbours,
+                 "vsl: k, a light's radius is the distance to its k-th nearest light")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--vsl-radius-scale", params.vsl_radius_scale, "vsl: times that distance")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--environment-size", params.environment_size,
+                 "environment: rows of texels that the map is reduced to at most, a power of two")
+      ->check(CLI::Range(8, 2048));
 }
 
 }  // namespace vsgl

@@ -11,7 +11,7 @@
 namespace vsgl {
 namespace {
 
-void check_params(const LightsParams& params) {
+void check_params(const LightsMethod& method, const LightsParams& params) {
   if (params.count < 1 || params.count > static_cast<int>(interop::MAX_POINTS))
     throw Error(ErrorCode::out_of_range, "count: " + std::to_string(params.count) + " is outside 1..1048576");
   if (!(params.kernel_scale > 0 && std::isfinite(params.kernel_scale)))
@@ -25,6 +25,20 @@ void check_params(const LightsParams& params) {
   if (params.level < -1 || params.level > 64)
     throw Error(ErrorCode::out_of_range,
                 "level: " + std::to_string(params.level) + " is outside -1..64; -1 takes the whole tree");
+  if (params.environment_size < 8 || params.environment_size > 2048 || !is_power_of_two(params.environment_size))
+    throw Error(ErrorCode::out_of_range, "environment_size: " + std::to_string(params.environment_size) +
+                                             " is not a power of two of 8..2048; try 512");
+  if (params.vsl_neighbours < 1 || params.vsl_neighbours > 1000)
+    throw Error(ErrorCode::out_of_range, "vsl_neighbours: " + std::to_string(params.vsl_neighbours) +
+                                             " is outside 1..1000; try 10");
+  if (!(params.vsl_radius_scale > 0 && std::isfinite(params.vsl_radius_scale)))
+    throw Error(ErrorCode::out_of_range, "vsl_radius_scale: " + std::to_string(params.vsl_radius_scale) +
+                                             " is not above 0; 1 reaches the k-th nearest light");
+  check_pass(params.pass);
+  if (params.pass.number > 1 && !method.has_passes)
+    throw Error(ErrorCode::bad_value, "pass: method " + method.name +
+                                          " makes the same lights in every pass; choose one that does not, "
+                                          "as fis-2016");
   if (params.mutations < 0 || params.mutations > max_mutations)
     throw Error(ErrorCode::out_of_range, "mutations: " + std::to_string(params.mutations) +
                                              " is outside 0.." + std::to_string(max_mutations) +
@@ -57,13 +71,19 @@ bool is_dark(const Pdf& pdf) {
 
 const std::vector<LightsMethod>& lights_methods() {
   static const std::vector<LightsMethod> methods = {
-      {.name = "vpl", .summary = "virtual point lights: the sampled texels", .run = generate_vpl},
+      {.name = "vpl", .summary = "virtual point lights: the sampled texels", .run = generate_vpl, .has_passes = true},
+      {.name = "vsl",
+       .summary = "virtual spherical lights: the sampled texels, as large as their k nearest are far",
+       .run = generate_vsl,
+       .has_passes = true},
       {.name = "fis-2014",
        .summary = "kernels sized by the density at their centres",
-       .run = generate_fis_2014},
+       .run = generate_fis_2014,
+       .has_passes = true},
       {.name = "fis-2016",
        .summary = "kernels that hold equal shares of the samples",
-       .run = generate_fis_2016},
+       .run = generate_fis_2016,
+       .has_passes = true},
       {.name = "metropolis",
        .summary = "as fis-2016, about Markov chains that go on from frame to frame",
        .run = generate_metropolis},
@@ -80,6 +100,11 @@ const std::vector<LightsMethod>& lights_methods() {
        .needs_pdf = false,
        .needs_device = false,
        .run = generate_tree},
+      {.name = "environment",
+       .summary = "lights of an environment map, infinitely far away; kernels as of fis-2016",
+       .needs_pdf = false,
+       .run = nullptr,
+       .of_environment = true},
   };
   return methods;
 }
@@ -91,7 +116,10 @@ const LightsMethod& lights_method(const std::string& name) {
 Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device* device,
                        Report& report) {
   const LightsMethod& method = lights_method(params.method);
-  check_params(params);
+  check_params(method, params);
+  if (method.of_environment)
+    throw Error(ErrorCode::missing_option,
+                "environment: method " + method.name + " lights a scene by a map; give --environment map.exr");
   if (method.needs_pdf && !pdf)
     throw Error(ErrorCode::missing_option, "pdf: method " + method.name + " needs one; give --pdf pdf.exr");
   if (method.needs_device && !device)
@@ -112,6 +140,23 @@ Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& param
   out.requested = method.needs_pdf ? params.count : static_cast<int>(out.lights.size());
   if (!out.is_tree())
     std::erase_if(out.lights, [](const interop::Light& light) { return !has_power(light); });
+  report.count("lights", out.lights.size());
+  report.count("dropped", static_cast<std::size_t>(out.requested) - out.lights.size());
+  return out;
+}
+
+Lights generate_environment_lights(const scene::Environment& environment, const LightsParams& params,
+                                   gpu::Device& device, Report& report) {
+  const LightsMethod& method = lights_method(params.method);
+  check_params(method, params);
+  if (!method.of_environment)
+    throw Error(ErrorCode::bad_value,
+                "method: \"" + method.name + "\" takes no environment; choose environment, or give an RSM");
+  Lights out;
+  out.kind = LightsKind::environment;
+  out.method = method.name;
+  out.requested = params.count;
+  out.lights = sample_environment(environment, params, device, report);
   report.count("lights", out.lights.size());
   report.count("dropped", static_cast<std::size_t>(out.requested) - out.lights.size());
   return out;

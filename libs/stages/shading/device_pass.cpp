@@ -39,16 +39,29 @@ DevicePass::DevicePass(const GBuffer& gbuffer, const Visibility* visibility, con
   push_.camera = to_float(gbuffer.camera);
   push_.cancel_scale = kernel.threshold > 0 ? 2 / kernel.threshold : 0;
   push_.clamp_distance2 = kernel.clamp_distance2;
+  push_.vsl = kernel.vsl;
   visibility_.describe(push_);
 }
 
 std::vector<ShadingSums> DevicePass::run(const ReceiverList& receivers, const std::vector<LightList>& lights,
                                          Report& report) {
+  const std::size_t count = receivers.pixels.size(), most = kernel_.receivers > 0 ? kernel_.receivers : count;
+  std::vector<ShadingSums> sums;
+  for (std::size_t first = 0; first < count; first += most) {
+    const auto part = run_part(slice(receivers, first, std::min(most, count - first)), lights, report);
+    sums.insert(sums.end(), part.begin(), part.end());
+  }
+  return sums;
+}
+
+std::vector<ShadingSums> DevicePass::run_part(const ReceiverList& receivers,
+                                              const std::vector<LightList>& lights, Report& report) {
   gpu::Buffer surfaces = gpu::Buffer::from(device_, receivers.surfaces);
   gpu::Buffer results(device_, receivers.surfaces.size() * sizeof(ShadingSums));
   results.clear();
   for (const LightList& list : lights) {
-    const std::uint32_t pixels = pixels_per_invocation(receivers.ndf, list.ndf);
+    const std::uint32_t pixels =
+        kernel_.pixels > 0 ? kernel_.pixels : pixels_per_invocation(receivers.ndf, list.ndf);
     const gpu::ComputePipeline pipeline = build(receivers, list.ndf, pixels);
     std::span<const std::uint32_t> rest = list.lights;
     while (!rest.empty()) {

@@ -33,6 +33,8 @@ class DevicePass {
                                         Report& report);
 
  private:
+  std::vector<interop::ShadingSums> run_part(const ReceiverList& receivers,
+                                             const std::vector<LightList>& lights, Report& report);
   std::size_t block_lights() const;
   gpu::Buffer upload_block(std::span<const std::uint32_t> lights) const;
   gpu::ComputePipeline build(const ReceiverList& receivers, std::uint32_t emission,

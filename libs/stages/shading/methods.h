@@ -17,6 +17,13 @@ Indirect shade_vsgl(const GBuffer&, const Lights&, const Visibility*, const Shad
 Indirect shade_vsgl_2014(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
                          Report&);
 
+Indirect shade_vsl(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&, gpu::Device&,
+                   Report&);
+
+// Model vsgl with lights of an environment.
+Indirect shade_environment(const GBuffer&, const Lights&, const Visibility*, const ShadingParams&,
+                           gpu::Device&, Report&);
+
 // By a cut through a light tree: its clusters as filtered virtual point lights, with the cut's visibility.
 // Also fills cut_size and error_estimate. The cut must be of these lights and of this image.
 Indirect shade_cut(const GBuffer&, const Lights&, const Cut&, const ShadingParams&, gpu::Device&, Report&);

@@ -22,9 +22,12 @@ void add_options(CLI::App& app, ShadingParams& params) {
   add_methods(app, light_models(), params.light_model, "how a light is evaluated", "--light-model");
   app.add_option(
          "--schedule", params.schedule,
-         "which lights a pixel sums: flat: all; interleave: a sixteenth, the others from its neighbours; "
+         "which lights a pixel sums: flat: all; interleave: a share, the others from its neighbours; "
          "cut: those of its tile's cut through a light tree; auto: cut for trees, else flat")
       ->check(CLI::IsMember({"auto", "flat", "interleave", "cut"}));
+  app.add_option("--interleave", params.interleave,
+                 "interleave: pixels a side of the square that shares the lights; 1: as flat")
+      ->check(CLI::IsMember({1, 2, 4, 8}));
   app.add_option("--clamp", params.clamp,
                  "vpl: smallest distance, as a fraction of the scene's radius; 0: none")
       ->check(CLI::Range(0.0, 1.0));

@@ -26,6 +26,14 @@ std::uint32_t receiver_ndf(const interop::Surface& surface) {
   return is_black(surface.specular) ? interop::NDF_NONE : surface.ndf;
 }
 
+ReceiverList slice(const ReceiverList& list, std::size_t first, std::size_t count) {
+  const auto part = [=](const auto& all) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::vector(begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  return {list.ndf, list.bumped, part(list.pixels), part(list.surfaces)};
+}
+
 void add(const std::vector<interop::ShadingSums>& sums, const ReceiverList& list,
          std::vector<interop::ShadingSums>& image) {
   for (std::size_t i = 0; i < sums.size(); ++i) {

@@ -32,6 +32,9 @@ ReceiverList select(const ReceiverList& list, Chosen chosen) {
   return out;
 }
 
+// `count` pixels of `list` from number `first` on.
+ReceiverList slice(const ReceiverList& list, std::size_t first, std::size_t count);
+
 // Adds the sums of the pixels of `list`, in its order, to the image's.
 void add(const std::vector<interop::ShadingSums>& sums, const ReceiverList& list,
          std::vector<interop::ShadingSums>& image);

@@ -30,6 +30,31 @@ void require_image_size(const std::string& what, int width, int height, const GB
                                            "x" + std::to_string(gbuffer.height) + "; " + remedy);
 }
 
+// Sphere lights belong to no surface: they send light to all sides, and there is no exact emission to take the
+// place of their SG. Nothing is known of their shadows.
+bool are_sphere_lights(const Lights& lights) {
+  return lights.method == "sphere-lights";
+}
+void require_sphere_lights(const LightModel& model, const Visibility* visibility, const ShadingParams& params) {
+  const std::string what = " does not fit sphere lights";
+  if (model.name != "vsgl")
+    throw Error(ErrorCode::bad_value, "light_model: \"" + model.name + "\"" + what + "; choose vsgl");
+  if (params.cbr > 0)
+    throw Error(ErrorCode::bad_value, "cbr: " + std::to_string(params.cbr) + what + ", which have no BRDF; give 0");
+  if (visibility && !std::holds_alternative<Unshadowed>(*visibility))
+    throw Error(ErrorCode::bad_value, "visibility" + what + "; leave it out");
+}
+
+// Lights of an environment fit any scene, but not any light model.
+void require_kind(const LightModel& model, const Lights& lights, const GBuffer& gbuffer) {
+  if (lights.kind == LightsKind::points) {
+    require_same_anchor("lights", lights.anchor, gbuffer);
+  } else if (model.name != "vsgl") {
+    throw Error(ErrorCode::bad_value, "light_model: \"" + model.name +
+                                          "\" cannot shade with lights of an environment; choose vsgl");
+  }
+}
+
 void check_visibility(const ShadowMaps& maps, const GBuffer& gbuffer, const Lights& lights) {
   require_same_anchor("shadow maps", maps.anchor, gbuffer);
   require_light_count("shadow maps", maps.views.size(), lights);
@@ -39,6 +64,11 @@ void check_visibility(const VisibilityBits& bits, const GBuffer& gbuffer, const 
   require_same_anchor("visibility bits", bits.anchor, gbuffer);
   require_light_count("visibility bits", static_cast<std::size_t>(bits.lights), lights);
   require_image_size("visibility bits", bits.width, bits.height, gbuffer, "trace them for this G-buffer");
+}
+
+void check_visibility(const Unshadowed& unshadowed, const GBuffer& gbuffer, const Lights& lights) {
+  require_same_anchor("visibility", unshadowed.anchor, gbuffer);
+  require_light_count("visibility", static_cast<std::size_t>(unshadowed.lights), lights);
 }
 
 void check_visibility(const Cut& cut, const GBuffer& gbuffer, const Lights& lights) {
@@ -95,10 +125,12 @@ Indirect shade(const GBuffer& gbuffer, const Lights& lights, const Visibility* v
   require_range("clamp", params.clamp, 0, 1);
   require_range("cbr", params.cbr, 0, 1);
   require_range("diffuse_scale", params.diffuse_scale, 1, 2);
-  require_same_anchor("lights", lights.anchor, gbuffer);
+  check_pass(params.pass);
+  require_range("vsl_samples", params.vsl_samples, 1, 4096);
+  require_kind(model, lights, gbuffer);
   if (visibility) std::visit([&](const auto& v) { check_visibility(v, gbuffer, lights); }, *visibility);
   const Cut* cut = std::get_if<Cut>(visibility);
-  if (resolve_schedule(params, lights) == "cut") {
+  if (schedule == "cut") {
     if (model.name != "fvpl")
       throw Error(ErrorCode::bad_value, "light_model: \"" + model.name +
                                             "\" cannot shade by a cut; choose fvpl, or make a list of lights "

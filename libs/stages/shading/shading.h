@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "artifact/artifact.h"
+#include "base/pass.h"
 #include "base/report.h"
 #include "gpu/device.h"
 
@@ -29,7 +30,7 @@ struct ShadingParams {
 };
 
 // How the lights are summed: "cut" (only what each tile needs) where they are a tree; for lists "flat" (all
-// lights at every pixel), unless "interleave" (a sixteenth at each of 4x4 pixels) is asked for. Throws
+// lights at every pixel), unless "interleave" (a share of them at each pixel of a square) is asked for. Throws
 // bad_value for an unknown schedule, and for one that these lights do not fit.
 std::string resolve_schedule(const ShadingParams& params, const Lights& lights);
 

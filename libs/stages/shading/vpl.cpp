@@ -1,5 +1,7 @@
+#include <cmath>
 #include <cstdint>
 
+#include "math/progressive.h"
 #include "spirv/shading/vpl.comp.glsl.h"  // after <cstdint>, which it needs
 #include "stages/shading/light_pack.h"
 #include "stages/shading/methods.h"
@@ -22,7 +24,7 @@ double clamped_fraction(const Indirect& image, const std::vector<interop::Shadin
 
 Indirect shade_vpl(const GBuffer& gbuffer, const Lights& lights, const Visibility* visibility,
                    const ShadingParams& params, gpu::Device& device, Report& report) {
-  const double floor = params.clamp * gbuffer.scene_radius;
+  const double floor = params.clamp * gbuffer.scene_radius * std::sqrt(radius2_scale(params.pass));
   ShadingKernel kernel;
   kernel.spirv = vpl_comp_spv;
   kernel.lights = pack_points(lights);

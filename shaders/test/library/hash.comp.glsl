@@ -9,4 +9,7 @@ void call() {
   put(v.y);
   put(v.z);
   put(point_of_bits(v.xy));
+  uvec2 bits = r2_bits(v.z);
+  put(bits.x);
+  put(bits.y);
 }

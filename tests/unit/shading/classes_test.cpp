@@ -50,7 +50,8 @@ double relative_difference(const std::vector<interop::vec3>& a, const std::vecto
 
 TEST(Classes, AgreeWithTheGeneralPipeline) {
   const Lights lights = mixed_lights();
-  for (auto [method, tilt] : {std::pair{"fvpl", 0.1}, {"vpl", 0.1}, {"vsgl", 0.1}, {"vsgl-2014", 0.0}}) {
+  for (auto [method, tilt] :
+       {std::pair{"fvpl", 0.1}, {"vpl", 0.1}, {"vsl", 0.1}, {"vsgl", 0.1}, {"vsgl-2014", 0.0}}) {
     SCOPED_TRACE(testing::Message() << method << " tilt " << tilt);
     const GBuffer gbuffer = mixed_gbuffer(tilt);
     const Indirect special = test::shade_box(gbuffer, lights, {.light_model = method});

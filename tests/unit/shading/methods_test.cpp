@@ -169,7 +169,7 @@ TEST(SpecularLobes, AreRefusedWhereTheyHaveNoEffect) {
 // A light below the plane of a pixel whose shading normal leans towards it.
 TEST(Shading, NothingArrivesFromBelowTheGeometricHorizon) {
   for (std::uint32_t ndf : kNdfs)
-    for (const char* method : {"fvpl", "vpl", "vsgl", "vsgl-2014"}) {
+    for (const char* method : {"fvpl", "vpl", "vsl", "vsgl", "vsgl-2014"}) {
       SCOPED_TRACE(testing::Message() << method << " " << ndf);
       BoxOptions options = box(ndf, ndf);
       options.width = options.height = options.lights = 1;
@@ -201,7 +201,7 @@ TEST(Shading, RefusesParametersOutsideTheirRange) {
   const GBuffer gbuffer = test::box_gbuffer({});
   const Lights lights = test::box_lights({});
   const auto run = [&](ShadingParams params) { return [=] { test::shade_box(gbuffer, lights, params); }; };
-  test::expect_error(ErrorCode::bad_value, {"light_model", "vsgl-2014"}, run({.light_model = "vsl"}));
+  test::expect_error(ErrorCode::bad_value, {"light_model", "vsgl-2014"}, run({.light_model = "vsm"}));
   test::expect_error(ErrorCode::bad_value, {"specular_lobe", "asg"}, run({.specular_lobe = "ASG"}));
   test::expect_error(ErrorCode::out_of_range, {"cbr"}, run({.cbr = -0.1}));
   test::expect_error(ErrorCode::out_of_range, {"clamp"}, run({.clamp = 1.5}));

@@ -1,0 +1,96 @@
+// Progressive rendering converges to the ground truth.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "math/interop_vec.h"
+#include "pipeline/renderer.h"
+#include "reference/reference.h"
+#include "test_scene.h"
+
+namespace vsgl::test {
+namespace {
+
+constexpr int kWidth = 24, kHeight = 16;
+
+struct Setting {
+  const char* name;
+  const char* method;
+  const char* light_model;
+};
+std::ostream& operator<<(std::ostream& out, const Setting& setting) {
+  return out << setting.name;
+}
+
+const scene::Scene& glossy_box() {
+  static const scene::Scene scene = test_scene("cornell-glossy", kWidth, kHeight);
+  return scene;
+}
+
+RenderedFrame render(gpu::Device& device, const Setting& setting, int passes, std::uint64_t seed) {
+  Pipeline pipeline;
+  pipeline.rsm_bake.rsm.width = pipeline.rsm_bake.rsm.height = 256;
+  pipeline.pdf_build.method = "flux";
+  pipeline.vsgl_gen.method = setting.method;
+  pipeline.vsgl_gen.count = 64;
+  pipeline.ismap->method = "raytraced";
+  pipeline.shade.light_model = setting.light_model;
+  pipeline.shade.vsl_samples = 8;
+  pipeline.progressive = Progressive{.passes = passes};
+  pipeline.set_seed(seed);
+  return Renderer(device, pipeline, false).render(glossy_box());
+}
+
+const Reference& truth(const GBuffer& gbuffer) {
+  static const Reference image = [&] {
+    Report report;
+    reference::ReferenceParams params;
+    params.samples = 2048;
+    return reference::trace_reference(glossy_box(), gbuffer, params, report);
+  }();
+  return image;
+}
+
+double radiance(const Indirect& image, std::size_t i) {
+  return luminance(to_double(image.diffuse[i]) +
+                   (image.specular.empty() ? Vec3{} : to_double(image.specular[i])));
+}
+
+// Mean squared relative error of luminance, less that of the truth's own noise.
+double error_of(const RenderedFrame& frame) {
+  const Reference& reference = truth(frame.gbuffer);
+  double sum = 0, mean = 0;
+  for (std::size_t i = 0; i < frame.gbuffer.pixels.size(); ++i)
+    mean += radiance(reference.radiance, i) / static_cast<double>(frame.gbuffer.pixels.size());
+  for (std::size_t i = 0; i < frame.gbuffer.pixels.size(); ++i) {
+    const double wanted = radiance(reference.radiance, i), floor = 0.02 * mean;
+    sum += std::pow(radiance(frame.image, i) - wanted, 2) / (wanted * wanted + floor * floor);
+  }
+  return sum / static_cast<double>(frame.gbuffer.pixels.size());
+}
+
+class ProgressiveTest : public testing::TestWithParam<Setting> {};
+
+// Variance and squared bias of the mean of n passes fall as n^(-2/3) at least: by 16 from 1 to 64.
+TEST_P(ProgressiveTest, ConvergesToTheGroundTruth) {
+  gpu::Device device({.compute_only = true});
+  double one = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) one += error_of(render(device, GetParam(), 1, seed)) / 4;
+  const double eight = error_of(render(device, GetParam(), 8, 0));
+  const double many = error_of(render(device, GetParam(), 64, 0));
+  std::printf("%-8s relMSE of 1, 8 and 64 passes: %.4f %.4f %.4f\n", GetParam().name, one, eight, many);
+  EXPECT_LT(eight, one / 2);
+  EXPECT_LT(many, eight / 2);
+  EXPECT_LT(many, one / 8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, ProgressiveTest,
+                         testing::Values(Setting{"vsl", "vsl", "vsl"}, Setting{"vsgl", "fis-2016", "vsgl"},
+                                         Setting{"vsgl_2014", "fis-2014", "vsgl-2014"},
+                                         Setting{"vpl", "vpl", "vpl"}),
+                         [](const auto& entry) { return std::string(entry.param.name); });
+
+}  // namespace
+}  // namespace vsgl::test
