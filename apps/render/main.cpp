@@ -35,7 +35,7 @@ void write_frame(const vsgl::RenderedFrame& frame, const vsgl::render::FramePath
   vsgl::write(outputs.add(paths.image), frame.image, provenance);
   if (paths.gbuffer.empty()) return;
   vsgl::write(outputs.add(paths.gbuffer), frame.gbuffer, provenance);
-  vsgl::write(outputs.add(paths.rsm), frame.rsm, provenance);
+  if (!frame.rsm.layers.empty()) vsgl::write(outputs.add(paths.rsm), frame.rsm, provenance);
   if (frame.pdf) vsgl::write(outputs.add(paths.pdf), *frame.pdf, provenance);
   vsgl::write(outputs.add(paths.lights), frame.lights, provenance);
   if (frame.visibility) vsgl::write(outputs.add(paths.sight), *frame.visibility, provenance);

@@ -5,6 +5,7 @@
 #include "artifact/artifact.h"
 #include "artifact/fields.h"
 #include "artifact/header.h"
+#include "base/error.h"
 
 namespace vsgl {
 
@@ -36,6 +37,7 @@ constexpr Field kFields[] = {
     {"children", "I", offsetof(Light, children)},
 };
 
+constexpr const char *kKind = "lights.kind", *kEnvironment = "environment";
 using interop::Chain;
 constexpr Field kChainFields[] = {
     {"x", "I", offsetof(Chain, x)},
@@ -87,6 +89,15 @@ std::vector<std::uint32_t> tree_levels(const ExrFile& file, const ExrPart& part,
   }
   levels.push_back(end);
   return levels;
+}
+
+// The attribute is there for environment lights alone.
+LightsKind read_kind(const ExrFile& file, const ExrPart& part) {
+  if (!part.attributes.contains(kKind)) return LightsKind::points;
+  const std::string kind = string_attribute(file, part, kKind);
+  if (kind == kEnvironment) return LightsKind::environment;
+  throw Error(ErrorCode::invalid_data, file.path + ": attribute " + kKind + ": \"" + kind +
+                                           "\" is not environment; write the lights again");
 }
 
 void check_list(const ExrFile& file, const ExrPart& part, const std::vector<Light>& lights) {
@@ -141,6 +152,7 @@ void write(const std::filesystem::path& path, const Lights& lights, const Proven
   part.attributes["lights.requested"] = lights.requested;
   part.attributes["lights.count"] = static_cast<int>(lights.lights.size());
   part.attributes["lights.tree"] = lights.is_tree() ? 1 : 0;
+  if (lights.kind == LightsKind::environment) part.attributes[kKind] = std::string(kEnvironment);
   const auto [width, height] = image_size(lights.lights.size());
   part.levels = {pack(kFields, Structs(std::span(lights.lights)), width, height, lights.has_specular())};
   std::vector<ExrPart> parts{std::move(part)};
@@ -156,6 +168,7 @@ Lights read_lights(const std::filesystem::path& path) {
   const bool with_chains = file.parts.size() == 2 && file.parts.back().name == kChainsPart;
   const ExrPart& part = with_chains ? file.part(kLightsPart) : only_part(file);
   Lights out;
+  out.kind = read_kind(file, part);
   out.method = string_attribute(file, part, "lights.method");
   out.anchor = finite_vec3(file, part, "anchor");
   out.scene_radius = double_in(file, part, "scene_radius", 0, std::numeric_limits<double>::max());

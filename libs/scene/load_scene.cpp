@@ -31,6 +31,7 @@ std::vector<fs::path> scene_files(const fs::path& json_path) {
     for (const auto& texture :
          {material.base_color_texture, material.metallic_roughness_texture, material.normal_texture})
       if (texture && texture->file) add(*texture->file);
+  if (spec.environment) add(spec.environment->file);
   return files;
 }
 

@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "math/light_source.h"
 #include "math/vec.h"
+#include "scene/environment.h"
 
 namespace vsgl::scene {
 
@@ -76,9 +78,10 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   Camera camera;
-  // One per light of the scene, in world orientation, positions relative to the anchor. A point light's axes
+  // One per light of the scene (none where it has an environment alone), in world orientation, positions relative to the anchor. A point light's axes
   // are the world's; a directional light's position is the anchor (the RSM stage frames both).
   std::vector<LightSource> lights;
+  std::optional<EnvironmentSpec> environment;  // read by those who light the scene with it
   std::vector<std::string> warnings;  // blended materials taken as cut-outs, and the like
 
   std::size_t triangle_count() const;

@@ -218,6 +218,7 @@ Scene SceneSequence::at(int frame) const {
   Scene scene = s.common;
   scene.instances = s.instances(nodes);
   scene.camera = choose_camera(spec, nodes, scene.anchor, s.json_path, scene.warnings);
+  scene.environment = spec.environment;
   scene.lights = collect_lights(spec, nodes, scene.anchor, scene.radius, s.json_path, scene.warnings);
   return scene;
 }

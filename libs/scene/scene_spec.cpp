@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/strict_json.h"
 #include "interop/model.h"
+#include "scene/sphere_light.h"
 #include "scene/transform.h"
 
 namespace vsgl::scene {
@@ -207,6 +208,15 @@ LightSource read_light(const JsonValue& object, std::size_t index) {
   return light;
 }
 
+EnvironmentSpec read_environment_spec(const JsonValue& object, const fs::path& folder) {
+  EnvironmentSpec out;
+  out.file = (folder / object.at("file").string()).lexically_normal();
+  if (const auto rotation = object.find("rotation_deg")) out.rotation_deg = read_vec3(*rotation);
+  if (const auto scale = object.find("scale")) out.scale = scale->number(0, 1e30);
+  object.finish();
+  return out;
+}
+
 void read_camera(const JsonValue& object, SceneSpec& spec) {
   if (const auto name = object.find("gltf_name")) {
     spec.gltf_camera = name->string();
@@ -267,11 +277,14 @@ SceneSpec read_scene_spec(const JsonValue& root, const fs::path& folder) {
     for (const JsonValue& light : lights->array())
       spec.lights->push_back(read_light(light, spec.lights->size()));
   }
+  if (const auto environment = root.find("environment"))
+    spec.environment = read_environment_spec(*environment, folder);
   if (const auto camera = root.find("camera")) read_camera(*camera, spec);
   if (const auto resolution = root.find("resolution")) read_resolution(*resolution, spec);
   if (const auto anchor = root.find("anchor")) spec.anchor = read_vec3(*anchor);
   if (const auto efficacy = root.find("lumens_per_watt")) spec.lumens_per_watt = efficacy->number(1e-3, 1e6);
-  root.find("animation");  // a key that is known: class Animation reads it
+  read_sphere_lights(root, {});  // checked here, kept by those who use them
+  root.find("animation");        // a key that is known: class Animation reads it
   root.finish();
   return spec;
 }

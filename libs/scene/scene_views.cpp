@@ -150,7 +150,7 @@ std::vector<LightSource> collect_lights(const SceneSpec& spec, const std::vector
     for (const PlacedNode& placed : nodes)
       if (placed.node->light >= 0) add(gltf_light(placed, spec.lumens_per_watt, json_path));
   }
-  if (out.empty()) {
+  if (out.empty() && !spec.environment) {
     throw Error(
         ErrorCode::bad_light,
         json_path.string() + ": the scene has no light; add one under \"lights\" or to the glTF file");

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs the whole chain once, small, for the cases to start from: scene.json, scene.glb, gbuffer.exr, rsm.exr, pdf.exr, lights.exr,
-ism.exr, indirect.exr; and a tree of lights, tree.exr."""
+ism.exr, indirect.exr; a tree of lights, tree.exr; and an environment map, sky-sky.exr."""
 
 import argparse
 import pathlib
@@ -25,6 +25,7 @@ def main():
         chain.vsgl_gen("--method", "fis-2016", "--count", "16")
         chain.ismap("--points", "256", "--tile", "16")
         chain.shade()
+        chain.run("scene-gen", "sky", "-o", chain.path("sky.json"), outputs=["sky.json", "sky.glb", "sky-sky.exr"])
         chain.run("vsgl-gen", "--method", "tree", "--rsm", chain.path("rsm.exr"), "-o", chain.path("tree.exr"), outputs=["tree.exr"])
     except StageFailed as failure:
         print(f"FAIL {failure}")

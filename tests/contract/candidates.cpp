@@ -73,8 +73,16 @@ void check_pdf(gpu::Device&, const std::filesystem::path& path) {
 
 // ---- lights
 
+// Whose radiance adds up to the power that the RSM reflects.
+scene::Environment even_environment() {
+  const double radiance = reflected_power(rsm()) / (4 * std::numbers::pi);
+  return {32, 16, std::vector<Vec3>(32 * 16, Vec3{1, 1, 1} * radiance), {}};
+}
+
 Lights sample_lights(gpu::Device& device, const std::string& method) {
   Report report;
+  if (lights_method(method).of_environment)
+    return generate_environment_lights(even_environment(), {.method = method, .count = 128}, device, report);
   static const Pdf pdf = flux_pdf(rsm());
   return generate_lights(rsm(), &pdf, {.method = method, .count = 128}, &device, report);
 }

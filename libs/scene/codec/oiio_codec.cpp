@@ -67,6 +67,40 @@ class OiioCodec final : public ImageCodec {
     return convert(*input, name, srgb);
   }
 
+  FloatImage read_float(const std::filesystem::path& path) const override {
+    const std::string name = path.string();
+    if (!std::filesystem::is_regular_file(path))
+      throw Error(ErrorCode::file_not_found, name + ": the file is missing");
+    const auto input = OIIO::ImageInput::open(name);
+    if (!input) unreadable(name, "not a readable image: " + OIIO::geterror());
+    const OIIO::ImageSpec& spec = input->spec();
+    if (!spec.format.is_floating_point())
+      throw Error(ErrorCode::wrong_channel_type,
+                  name + ": it holds integers, not radiance; give an OpenEXR or Radiance HDR file");
+    FloatImage out{spec.width, spec.height, spec.channelnames, {}};
+    out.values.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                      spec.channelnames.size());
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.values.data()))
+      unreadable(name, "the image is damaged: " + input->geterror());
+    return out;
+  }
+
+  std::string encode_exr(const FloatImage& image) const override {
+    OIIO::Filesystem::IOVecOutput memory;
+    const auto output = OIIO::ImageOutput::create("exr");
+    OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()),
+                         OIIO::TypeDesc::FLOAT);
+    spec.channelnames = image.channels;
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "1970:01:01 00:00:00");  // or else the present: equal images give equal bytes
+    const bool written = output && output->set_ioproxy(&memory) && output->open("memory.exr", spec) &&
+                         output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) && output->close();
+    if (!written)
+      throw Error(ErrorCode::write_failed, "an image cannot be encoded as OpenEXR: " + OIIO::geterror());
+    const auto& bytes = memory.buffer();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+
   std::string encode_png(int width, int height, const std::vector<std::uint8_t>& rgb) const override {
     OIIO::Filesystem::IOVecOutput memory;
     const auto output = OIIO::ImageOutput::create("png");

@@ -33,6 +33,10 @@ const std::vector<Generator>& registry() {
        make_atrium},
       {{"thin-walls", "a room divided by a wall without thickness and one of 1 cm, lit at one end"},
        make_thin_walls},
+      {{"sky", "metal balls from smooth to rough and a block under a sky, with its environment map"},
+       make_sky},
+      {{"sphere-light", "a glossy plane under a small sphere light, seen at a grazing angle"},
+       make_sphere_light},
   };
   return all;
 }
@@ -166,6 +170,12 @@ std::vector<fs::path> glmark2_textures(const fs::path& folder) {
           folder / "crate-base.png"};
 }
 
+Json sphere_light(const ModelSphereLight& light, const GenerateOptions& options) {
+  return {{"position", array_of(options.offset + options.scale * light.position)},
+          {"radius_m", options.scale * light.radius},
+          {"radiance_w_m2_sr", light.radiance_w_m2_sr}};
+}
+
 Json scene_json(const Model& model, const GenerateOptions& options, const fs::path& folder,
                 const std::string& stem) {
   Json out{{"$schema", "vsgltools/scene/1"}};
@@ -189,6 +199,9 @@ Json scene_json(const Model& model, const GenerateOptions& options, const fs::pa
         reference(pictures[1], folder);  // a fine grain that suits wood as well
   }
   if (!materials.empty()) out["materials"] = materials;
+  if (!model.environment.empty()) out["environment"] = {{"file", model.environment}};
+  if (model.sphere_light.radius > 0)
+    out["sphere_lights"] = Json::array({sphere_light(model.sphere_light, options)});
   out["camera"] = {{"gltf_name", "camera"}};
   out["resolution"] = {options.width.value_or(model.width), options.height.value_or(model.height)};
   return out;
@@ -216,6 +229,7 @@ GeneratedScene generate_scene(const std::string& name, const GenerateOptions& op
   check(name, options);
   Model model = generator.make(options);
   for (ModelImage& image : model.images) image.name = stem + "-" + image.name;
+  if (!model.environment.empty()) model.environment = stem + "-" + model.environment;
   for (ModelMaterial& material : model.materials)
     for (std::string* image : {&material.base_color_image, &material.normal_image})
       if (!image->empty()) *image = stem + "-" + *image;

@@ -11,6 +11,8 @@ Model make_cornell_glossy(const GenerateOptions& options);
 Model make_caustic_ring(const GenerateOptions& options);
 Model make_atrium(const GenerateOptions& options);
 Model make_thin_walls(const GenerateOptions& options);
+Model make_sky(const GenerateOptions& options);
+Model make_sphere_light(const GenerateOptions& options);
 
 // The roughness that the options ask for, or `fallback`; and the NDF that goes with it.
 struct Lobe {

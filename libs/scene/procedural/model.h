@@ -37,7 +37,7 @@ struct ModelMaterial {
 
 struct ModelImage {
   std::string name;   // file name
-  std::string bytes;  // PNG
+  std::string bytes;  // PNG or OpenEXR
 };
 
 // A spot light or camera at `position`, looking at `target`.
@@ -46,13 +46,22 @@ struct ModelView {
   double fov_deg = 40;  // camera: vertical, whole; light: half angle of the outer cone
 };
 
+// Of the same radiance in all directions.
+struct ModelSphereLight {
+  Vec3 position;
+  double radius = 0;  // m; 0: none
+  double radiance_w_m2_sr = 1;
+};
+
 // A scene before it is moved, scaled and written; metres, y up.
 struct Model {
   std::vector<ModelMaterial> materials;
   std::vector<ModelMesh> meshes;
   std::vector<ModelNode> nodes;
   std::vector<ModelImage> images;
+  std::string environment;  // which of the images lights the scene from far away; empty: none
   ModelView camera, light;
+  ModelSphereLight sphere_light{};
   double light_inner_deg = 0;  // half angle of the cone of full intensity
   double light_intensity_w_sr = 1;
   int width = 640, height = 360;

@@ -33,9 +33,9 @@ Vec3 reflected_power(const Rsm& rsm) {
   return sum;
 }
 
-// Powers, and the luminance of the lights' over the RSM's (null where nothing is reflected).
-ordered_json power_statistics(const Lights& lights, const Rsm& rsm) {
-  const Vec3 emitted = emitted_power(lights), reflected = reflected_power(rsm);
+// Powers, and the luminance of the lights' over their source's (null where that is dark).
+ordered_json power_statistics(const Lights& lights, Vec3 reflected) {
+  const Vec3 emitted = emitted_power(lights);
   ordered_json ratio;
   if (luminance(reflected) > 0) ratio = luminance(emitted) / luminance(reflected);
   return {{"lights_w", to_array(emitted)}, {"rsm_w", to_array(reflected)}, {"ratio", ratio}};
@@ -112,9 +112,8 @@ ordered_json to_json(const interop::Light& light) {
           {"children", light.children}};
 }
 
-}  // namespace
-
-ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& params, bool dump) {
+// `power`: of what the lights stand for.
+ordered_json describe(const Lights& lights, Vec3 power, const LightsParams& params, bool dump) {
   const int count = static_cast<int>(lights.lights.size());
   ordered_json out = {{"$schema", "vsgltools/lights/1"},
                       {"method", lights.method},
@@ -129,7 +128,7 @@ ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& 
                       {"requested", lights.requested},
                       {"count", count},
                       {"dropped", lights.requested - count},
-                      {"power", power_statistics(lights, rsm)}};
+                      {"power", power_statistics(lights, power)}};
   if (count > 0) {
     out["level"] = range_of(lights, &interop::Light::level);
     out["level"]["histogram"] = level_histogram(lights);
@@ -143,6 +142,17 @@ ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& 
     for (const interop::Light& light : lights.lights) out["lights"].push_back(to_json(light));
   }
   return out;
+}
+
+}  // namespace
+
+ordered_json describe(const Lights& lights, const Rsm& rsm, const LightsParams& params, bool dump) {
+  return describe(lights, reflected_power(rsm), params, dump);
+}
+
+ordered_json describe(const Lights& lights, const scene::Environment& environment, const LightsParams& params,
+                      bool dump) {
+  return describe(lights, environment_power(environment), params, dump);
 }
 
 }  // namespace vsgl

@@ -17,6 +17,7 @@ constexpr double kMinVariance = 1e-12;  // of the scene's radius squared
 constexpr float kMinCosine = 1e-4f;     // as the shader library floors grazing cosines
 constexpr float kMinLobeCosine = 0.1f;  // of a specular lobe's axis at the emitter
 constexpr float kNeverCancelled = 1e30f;
+constexpr float kMinSharpness = 1e-3f;  // as kernels/fused.glsl floors that of incoming light
 
 float dot(vec3 a, vec3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -96,6 +97,13 @@ std::vector<ShadingLight> pack_vsgl_2014(const Lights& lights) {
     out.diffuse_scale = static_cast<float>(1 / std::numbers::pi);
     out.specular_scale /= std::max(dot(light.specular_axis, light.normal), kMinLobeCosine);
     out.bandwidth = is_lit(light.power_specular) ? light.specular_sharpness : 0;
+  });
+}
+
+std::vector<ShadingLight> pack_environment(const Lights& lights) {
+  return pack(lights, [](const Light& light, ShadingLight& out) {
+    out.diffuse_sharpness = std::max(light.diffuse_sharpness, kMinSharpness);
+    out.diffuse_scale = inverse_sg_integral(out.diffuse_sharpness);
   });
 }
 

@@ -17,5 +17,7 @@ std::vector<interop::ShadingLight> pack_points(const Lights& lights);
 std::vector<interop::ShadingLight> pack_vsgl(const Lights& lights);
 // Formulation of 2014: diffuse lobe of sharpness 0, the emitter's cosine outside both lobes.
 std::vector<interop::ShadingLight> pack_vsgl_2014(const Lights& lights);
+// Of an environment: the diffuse lobe is the SG of radiance, along the light.
+std::vector<interop::ShadingLight> pack_environment(const Lights& lights);
 
 }  // namespace vsgl

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -18,20 +19,34 @@ using trace::SurfacePoint;
 
 constexpr std::size_t word_bits = 32;
 
+constexpr double reach = 4;               // scene radii that rays towards an environment go
+constexpr double deepest_elevation = -4;  // standard deviations of a lobe below the horizon that still count
+
 // A light that rays go to.
 struct Emitter {
-  SurfacePoint point;
+  SurfacePoint point;  // of an environment light: position 0, the normal along the light
   bool traced = true;
+  double distant = 0;    // m: how far rays go towards an environment light; 0: another light
+  double deviation = 0;  // of an environment light's directions, rad
 };
 
-std::vector<Emitter> make_emitters(const Lights& lights, bool skip_powerless, const trace::Tracer& tracer,
-                                   Report& report) {
+Emitter environment_emitter(const interop::Light& light, double scene_radius) {
+  const double sharpness = std::max(static_cast<double>(light.diffuse_sharpness), 1.0);
+  return {{{}, to_double(light.diffuse_axis)}, true, reach * scene_radius, 1 / std::sqrt(sharpness)};
+}
+
+std::vector<Emitter> make_emitters(const VisibilityInputs& inputs, bool skip_powerless,
+                                   const trace::Tracer& tracer, Report& report) {
+  const Lights& lights = inputs.lights;
   std::vector<Emitter> emitters;
   emitters.reserve(lights.lights.size());
   std::size_t skipped = 0;
   for (const interop::Light& light : lights.lights) {
     const bool traced = !skip_powerless || has_power(light);
-    emitters.push_back({representative(light, lights.scene_radius, tracer), traced});
+    emitters.push_back(lights.kind == LightsKind::environment
+                           ? environment_emitter(light, inputs.scene.radius)
+                           : Emitter{representative(light, lights.scene_radius, tracer)});
+    emitters.back().traced = traced;
     skipped += !traced;
   }
   if (skipped > 0) report.skipped("rays to " + std::to_string(skipped) + " lights", "they have no power");
@@ -42,6 +57,19 @@ std::vector<Emitter> make_emitters(const Lights& lights, bool skip_powerless, co
 bool face_each_other(const SurfacePoint& a, const SurfacePoint& b) {
   const Vec3 v = b.position - a.position;
   return dot(v, a.normal) > 0 && dot(v, b.normal) < 0;
+}
+
+// Where a ray from the pixel to the light ends; nowhere if the pixel turns away. The ray to an environment
+// light goes along its axis to a point outside the scene, that is no surface. An axis at or below the horizon
+// is raised above it by half the lobe's deviation: shading adds up what of the lobe is above.
+std::optional<SurfacePoint> target(const SurfacePoint& pixel, const Emitter& light) {
+  if (light.distant == 0)
+    return face_each_other(pixel, light.point) ? std::optional(light.point) : std::nullopt;
+  const Vec3 axis = -light.point.normal;
+  const double elevation = dot(axis, pixel.normal);
+  if (elevation < deepest_elevation * light.deviation) return std::nullopt;
+  const double raise = std::max(0.5 * light.deviation - elevation, 0.0);
+  return SurfacePoint{pixel.position + light.distant * normalise(axis + raise * pixel.normal), {}};
 }
 
 struct Word {
@@ -55,8 +83,9 @@ Word trace_word(const trace::Tracer& tracer, const SurfacePoint& pixel, std::spa
   std::array<std::uint32_t, word_bits> bits;
   Word word;
   for (std::uint32_t i = 0; i < emitters.size(); ++i) {
-    if (!emitters[i].traced || !face_each_other(pixel, emitters[i].point)) continue;
-    targets[word.rays] = emitters[i].point;
+    const auto end = emitters[i].traced ? target(pixel, emitters[i]) : std::nullopt;
+    if (!end) continue;
+    targets[word.rays] = *end;
     bits[word.rays++] = i;
   }
   const std::uint32_t hidden = tracer.occluded(pixel, std::span(targets).first(word.rays));
@@ -110,7 +139,7 @@ Visibility trace_visibility(const VisibilityInputs& inputs, const VisibilityPara
   bits.width = gbuffer.width;
   bits.height = gbuffer.height;
   bits.lights = static_cast<int>(lights.lights.size());
-  bits.anchor = lights.anchor;
+  bits.anchor = inputs.scene.anchor;
   bits.words.resize(gbuffer.pixels.size() * static_cast<std::size_t>(bits.words_per_pixel()));
   std::optional<trace::Tracer> tracer;
   {
@@ -118,7 +147,7 @@ Visibility trace_visibility(const VisibilityInputs& inputs, const VisibilityPara
     tracer.emplace(inputs.scene);
   }
   const PhaseTimer timer(report, "rays");
-  const auto emitters = make_emitters(lights, params.skip_powerless, *tracer, report);
+  const auto emitters = make_emitters(inputs, params.skip_powerless, *tracer, report);
   const std::size_t rays = trace_words(*tracer, gbuffer, emitters, bits);
   report_bits(bits, gbuffer, rays, report);
   return bits;

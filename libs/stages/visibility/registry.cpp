@@ -41,7 +41,12 @@ void check_lights(const VisibilityMethod& method, const VisibilityInputs& inputs
     throw Error(ErrorCode::bad_value, "method: \"" + method.name + "\" is not for a " +
                                           (lights.is_tree() ? "tree" : "list") +
                                           " of lights; choose another one, or \"auto\"");
-  if (!(inputs.scene.anchor == lights.anchor))
+  if (lights.kind == LightsKind::environment) {
+    if (!method.for_environments)
+      throw Error(ErrorCode::bad_value, "method: \"" + method.name +
+                                            "\" is not for lights of an environment, which have no place; choose "
+                                            "raytraced or \"auto\"");
+  } else if (!(inputs.scene.anchor == lights.anchor))
     throw Error(ErrorCode::invalid_data,
                 "lights: their anchor is not the scene's; generate them from this scene");
   for (std::size_t i = 0; i < lights.lights.size(); ++i) {
@@ -57,9 +62,9 @@ void check_gbuffer(const VisibilityMethod& method, const VisibilityInputs& input
   if (!inputs.gbuffer)
     throw Error(ErrorCode::missing_option,
                 "gbuffer: method " + method.name + " needs one; give --gbuffer gbuffer.exr");
-  if (!(inputs.gbuffer->anchor == inputs.lights.anchor))
+  if (!(inputs.gbuffer->anchor == inputs.scene.anchor))
     throw Error(ErrorCode::invalid_data,
-                "gbuffer: its anchor is not the lights'; bake it from the same scene");
+                "gbuffer: its anchor is not the scene's; bake it from the same scene");
 }
 
 void check_cut(const VisibilityMethod& method, const VisibilityInputs& inputs) {
@@ -85,11 +90,12 @@ const VisibilityMethod& row(const std::string& name) {
 const std::vector<VisibilityMethod>& visibility_methods() {
   static const std::vector<VisibilityMethod> methods = {
       {.name = "auto",
-       .summary = "ism for a list of lights, rays or ratio for a tree",
+       .summary = "ism for a list of lights, raytraced for an environment's, rays or ratio for a tree",
        .for_lists = true,
        .for_trees = true},
       {.name = "ism",
        .summary = "imperfect shadow maps: surface points splatted into a hemisphere per light",
+       .for_environments = true,
        .for_lists = true,
        .needs_device = true,
        .run = visibility::build_ism},
@@ -110,6 +116,7 @@ const std::vector<VisibilityMethod>& visibility_methods() {
        .needs_device = true,
        .run = visibility::map_cut},
       {.name = "ratio",
+       .for_environments = true,
        .summary = "a preview: the cut without shadows, dimmed by the share of light that a few rays a pixel see",
        .for_trees = true,
        .needs_gbuffer = true,
@@ -128,12 +135,20 @@ VisibilityChoice choose_visibility(const VisibilityInputs& inputs, const Visibil
   return {row("rays"), count + "at most " + std::to_string(kManyTriangles)};
 }
 
+      {.name = "none",
+       .summary = "everything is seen: no shadows",
+       .for_lists = true,
+       .for_environments = true,
+       .for_trees = true,
+       .run = visibility::build_none},
 Visibility build_visibility(const VisibilityInputs& inputs, const VisibilityParams& params,
                             gpu::Device* device, Report& report) {
   const auto& [method, reason] = choose_visibility(inputs, params);
   check_params(params);
   check_lights(method, inputs);
   check_gbuffer(method, inputs);
+  if (inputs.lights.kind == LightsKind::environment)
+    return {row("raytraced"), "the lights are an environment's"};
   check_cut(method, inputs);
   if (method.needs_device && !device)
     throw Error(ErrorCode::internal, "build_visibility: method " + method.name + " without a device");

@@ -49,7 +49,9 @@ Visibility build_visibility(const VisibilityInputs& inputs, const VisibilityPara
 struct VisibilityMethod {
   std::string name;
   std::string summary;  // one line, for --list-methods
-  bool for_lists = false, for_trees = false;
+  bool for_lists = false;
+  bool for_environments = false;  // lists of lights that are infinitely far away
+  bool for_trees = false;
   bool needs_gbuffer = false, needs_device = false;
   Visibility (*run)(const VisibilityInputs&, const VisibilityParams&, gpu::Device*, Report&) = nullptr;
 };

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "interop/model.h"
+#include "scene/sphere_light.h"
 #include "scene_fixture.h"
 
 namespace vsgl::test {
@@ -140,6 +141,25 @@ TEST_F(SceneJson, MaterialOverrides) {
   EXPECT_EQ(material(paint({{"diffuse", 0.1}, {"metallic", 1}})).metallic, 1);
 
   EXPECT_TRUE(has_warning(folder.load(paint({{"diffuse", 0.7}, {"specular", 0.4}})), "1.1"));
+}
+
+TEST_F(SceneJson, SphereLights) {
+  const auto spheres = [](const Json& changes) {
+    Json out{{"position", {1, 2, 3}}, {"radius_m", 0.5}, {"radiance_w_m2_sr", {1, 2, 3}}};
+    out.merge_patch(changes);
+    return Json{{"sphere_lights", Json::array({out})}};
+  };
+  folder.load(spheres({{"name", "lamp"}}));
+  const auto lights = scene::load_sphere_lights(folder / "scene.json", {1, 0, 0});
+  ASSERT_EQ(lights.size(), 1u);
+  EXPECT_EQ(lights[0].name, "lamp");
+  EXPECT_EQ(lights[0].radius, 0.5);
+  expect_near(lights[0].position, {0, 2, 3}, 0);
+  expect_near(lights[0].radiance, {1, 2, 3}, 0);
+  expect_bad(ErrorCode::json_out_of_range, spheres({{"radius_m", 0}}), {"/sphere_lights/0/radius_m"});
+  expect_bad(ErrorCode::json_out_of_range, spheres({{"radiance_w_m2_sr", -1}}), {"radiance_w_m2_sr"});
+  expect_bad(ErrorCode::json_missing_key, spheres({{"position", nullptr}}), {"position"});
+  expect_bad(ErrorCode::json_unknown_key, spheres({{"radius", 1}}), {"radius", "radius_m"});
 }
 
 TEST_F(SceneJson, MaterialErrors) {
@@ -319,6 +339,7 @@ TEST_F(SceneJson, SchemaNamesTheSameKeys) {
   const Json animation{{"frame_rate_hz", 30}, {"frames", 2}, {"tracks", Json::array({track})}};
   full.update({{"anchor", {0, 0, 0}}, {"resolution", {8, 8}}, {"lumens_per_watt", 683}});
   full["animation"] = animation;
+  full["environment"] = {{"file", "map.exr"}, {"rotation_deg", {0, 0, 0}}, {"scale", 1}};
   ASSERT_NO_THROW(scene::load_scene(folder.write_json("scene.json", full)));
 
   const auto together = [&](std::initializer_list<Json> objects, std::set<std::string> more = {}) {
@@ -332,12 +353,13 @@ TEST_F(SceneJson, SchemaNamesTheSameKeys) {
             together({material}, {"roughness", "phong_exponent"}));
   EXPECT_EQ(keys(parts.at("light").at("properties")), together({spot, sun}));
   EXPECT_EQ(keys(parts.at("camera").at("properties")), together({full["camera"]}, {"gltf_name"}));
+  EXPECT_EQ(keys(parts.at("environment").at("properties")), keys(full["environment"]));
   EXPECT_EQ(keys(parts.at("animation").at("properties")), keys(animation));
   EXPECT_EQ(keys(parts.at("track").at("properties")), keys(track));
   EXPECT_EQ(keys(parts.at("key").at("properties")), keys(key));
   for (const auto& part :
        {schema, parts.at("mesh"), parts.at("transform"), parts.at("material"), parts.at("light"),
-        parts.at("camera"), parts.at("animation"), parts.at("track"), parts.at("key")}) {
+        parts.at("camera"), parts.at("environment"), parts.at("animation"), parts.at("track"), parts.at("key")}) {
     EXPECT_EQ(part.at("additionalProperties"), false);
   }
 }
