@@ -9,9 +9,11 @@ void write(const std::filesystem::path& path, const Visibility& visibility, cons
 }
 
 Visibility read_visibility(const std::filesystem::path& path) {
-  const ExrFile file = artifact::read_artifact(path, std::vector<std::string>{"ism", "visibility", "cut"});
+  const ExrFile file =
+      artifact::read_artifact(path, std::vector<std::string>{"ism", "visibility", "cut", "unshadowed"});
   if (artifact::kind_of(file) == "ism") return artifact::unpack_shadow_maps(file);
   if (artifact::kind_of(file) == "cut") return artifact::unpack_cut(file);
+  if (artifact::kind_of(file) == "unshadowed") return artifact::unpack_unshadowed(file);
   return artifact::unpack_visibility_bits(file);
 }
 

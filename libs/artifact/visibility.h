@@ -10,5 +10,6 @@ namespace vsgl::artifact {
 ShadowMaps unpack_shadow_maps(const ExrFile& file);
 VisibilityBits unpack_visibility_bits(const ExrFile& file);
 Cut unpack_cut(const ExrFile& file);
+Unshadowed unpack_unshadowed(const ExrFile& file);
 
 }  // namespace vsgl::artifact

@@ -1,7 +1,4 @@
 // [Ritschel 2008] splats the points of each light into its imperfect shadow map: one workgroup a light.
-// Deviation: a point is drawn as the disk it stands for, so that surfaces seen at a slant do not swell: it covers the
-// texels whose centre rays meet the disk, at the distances where they do, and always the texel that holds its centre.
-// (In a room with 8192 points a light, square splats of the best size leave 1.5 times the error.)
 #version 450
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,55 +7,14 @@
 #include "lib/octahedral.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0, scalar) readonly buffer Points { SplatPoint points[]; };
-layout(binding = 1, scalar) readonly buffer Views { SplatView views[]; };
-// Float bits of inverse distances: they order like uints.
-layout(binding = 2, scalar) buffer Maps { uint maps[]; };
 layout(push_constant, scalar) uniform Push { SplatPush push; };
-
-// Whether the point, d metres from the view's origin, belongs to the surface that emits.
-bool is_own_surface(SplatView view, vec3 position, float d) {
-  return d < view.own_radius && abs(dot(position - view.surface, view.axis)) < 0.5 * push.disk_radius;
-}
-
-// v, n: the point's position and normal in the view's frame. d = |v|.
-void splat(uint first_texel, vec3 v, vec3 n, float d, float radius, float near_distance) {
-  int tile = int(push.tile);
-  vec2 e = hemi_octahedral_encode(v);
-  vec2 place = (0.5 * e + 0.5) * float(tile);
-  float texel_width = d * sqrt(hemi_octahedral_solid_angle(e, float(tile)));  // m, at the point
-  // The search square fits a disk seen face on, at the mean width of a texel here.
-  float reach = clamp(radius / texel_width, 0.0, 0.5 * float(SPLAT_MAX_WIDTH));
-  ivec2 own = clamp(ivec2(place), 0, tile - 1);
-  ivec2 first = clamp(ivec2(ceil(place - reach - 0.5)), ivec2(0), own);
-  ivec2 last = clamp(ivec2(floor(place + reach - 0.5)), own, ivec2(tile - 1));
-  float height = dot(v, n);
-  // Where the centre's texel lies off the disk, its plane is followed, but not beyond a tangent of 4.
-  float slack = max(radius, 4.0 * texel_width);
-  for (int y = first.y; y <= last.y; ++y)
-    for (int x = first.x; x <= last.x; ++x) {
-      vec3 w = hemi_octahedral_decode((vec2(x, y) + 0.5) * (2.0 / float(tile)) - 1.0);
-      float inverse = abs(height) > 1e-6 * d ? dot(w, n) / height : 1.0 / d;
-      vec3 off_centre = w - inverse * v;  // times the distance
-      bool on_disk = dot(off_centre, off_centre) <= radius * radius * inverse * inverse;
-      if (!on_disk && ivec2(x, y) != own) continue;
-      inverse = clamp(inverse, 1.0 / (d + slack), 1.0 / max(d - slack, near_distance));
-      atomicMax(maps[first_texel + uint(y * tile + x)], floatBitsToUint(inverse));
-    }
-}
+layout(binding = 2, scalar) readonly buffer Points { SplatPoint points[]; };
+#include "visibility/splat.glsl"
 
 void main() {
   uint index = gl_WorkGroupID.x;
   SplatView view = views[index];
   mat3 frame = frame_about(view.axis);
-  for (uint t = gl_LocalInvocationID.x; t < push.points_per_view; t += gl_WorkGroupSize.x) {
-    SplatPoint point = points[(view.first_point + t) % push.pool_size];
-    vec3 v = point.position - view.origin;
-    float d = length(v);
-    bool occludes = point.radius > 0.0 && dot(v, view.axis) > 0.0 && d >= view.near_distance &&
-                    !is_own_surface(view, point.position, d);
-    if (!occludes) continue;
-    splat(index * push.tile * push.tile, v * frame, point.normal * frame, d, push.splat_scale * point.radius,
-          view.near_distance);
-  }
+  for (uint t = gl_LocalInvocationID.x; t < push.points_per_view; t += gl_WorkGroupSize.x)
+    splat_point(index * push.tile * push.tile, view, frame, points[(view.first_point + t) % push.pool_size]);
 }

@@ -12,12 +12,7 @@ namespace {
 using interop::ShadingSums;
 using interop::Surface;
 
-constexpr int kSide = 4;
-constexpr std::size_t kSubsets = 16;
-// Which subset of the lights pixel (x, y) sums, at (y mod 4) 4 + x mod 4: Bayer's ordered-dither matrix,
-// whose successive numbers lie far apart.
-constexpr std::array<std::uint8_t, kSubsets> kPattern = {0, 8,  2, 10, 12, 4, 14, 6,
-                                                         3, 11, 1, 9,  15, 7, 13, 5};
+constexpr std::size_t kMaxSubsets = 64;
 
 constexpr float kSmoothestAlpha = 0.25f;  // sharper lobes differ too much from pixel to pixel
 constexpr double kPlaneDistance = 0.01;   // of the depth: where a neighbour's weight is 1/2
@@ -48,6 +43,15 @@ double similarity(const Surface& s, const Surface& other) {
   return weight >= kLeastSimilarity ? weight : 0;
 }
 
+// Which subset of the lights pixel (x, y) sums: Bayer's ordered-dither matrix of `side`, a power of two,
+// whose successive numbers lie far apart.
+std::size_t bayer(std::size_t x, std::size_t y, std::size_t side) {
+  constexpr std::array<std::size_t, 4> smallest = {0, 2, 3, 1};
+  std::size_t number = 0;
+  for (; side > 1; side /= 2, x /= 2, y /= 2) number = 4 * number + smallest[y % 2 * 2 + x % 2];
+  return number;
+}
+
 // Weighted mean of sums.
 struct Mean {
   double weight = 0, aside = 0;
@@ -64,20 +68,26 @@ struct Mean {
 class Interleave {
  public:
   Interleave(const GBuffer& gbuffer, const std::vector<ReceiverList>& receivers,
-             const std::vector<LightList>& lights, DevicePass& pass, Report& report)
-      : gbuffer_(gbuffer), receivers_(receivers), lights_(lights), pass_(pass), report_(report) {}
+             const std::vector<LightList>& lights, int side, DevicePass& pass, Report& report)
+      : gbuffer_(gbuffer),
+        receivers_(receivers),
+        lights_(lights),
+        side_(side),
+        subsets_(static_cast<std::size_t>(side * side)),
+        pass_(pass),
+        report_(report) {}
 
   std::vector<ShadingSums> run() {
     std::vector<ShadingSums> own(gbuffer_.pixels.size());
-    for (std::size_t subset = 0; subset < kSubsets; ++subset)
+    for (std::size_t subset = 0; subset < subsets_; ++subset)
       sum(subset_of(subset), own,
           [&](std::uint32_t pixel) { return shares(gbuffer_.pixels[pixel]) && subset_at(pixel) == subset; });
     const std::size_t all =
         sum(lights_, own, [&](std::uint32_t pixel) { return !shares(gbuffer_.pixels[pixel]); });
-    std::vector<std::uint16_t> missing(own.size());
+    std::vector<std::uint64_t> missing(own.size());
     std::vector<ShadingSums> image = gather(own, missing);
     std::size_t recomputed = 0;
-    for (std::size_t subset = 0; subset < kSubsets; ++subset)
+    for (std::size_t subset = 0; subset < subsets_; ++subset)
       recomputed += sum(subset_of(subset), image,
                         [&](std::uint32_t pixel) { return (missing[pixel] >> subset & 1) != 0; });
     report_.count("pixels_all_lights", all);
@@ -89,16 +99,16 @@ class Interleave {
  private:
   std::size_t subset_at(std::size_t pixel) const {
     const auto width = static_cast<std::size_t>(gbuffer_.width);
-    return kPattern[pixel / width % kSide * kSide + pixel % width % kSide];
+    return bayer(pixel % width, pixel / width, static_cast<std::size_t>(side_));
   }
 
-  // Every sixteenth light.
+  // Every subsets_-th light.
   std::vector<LightList> subset_of(std::size_t subset) const {
     std::vector<LightList> out;
     for (const LightList& list : lights_) {
       LightList part{list.ndf, {}};
       for (const std::uint32_t light : list.lights)
-        if (light % kSubsets == subset) part.lights.push_back(light);
+        if (light % subsets_ == subset) part.lights.push_back(light);
       if (!part.lights.empty()) out.push_back(std::move(part));
     }
     return out;
@@ -122,7 +132,7 @@ class Interleave {
   // The sums of all lights from those that each pixel has of its own subset; those of the pixels that do not
   // share stay. Bit k of `missing`: no similar pixel has subset k.
   std::vector<ShadingSums> gather(const std::vector<ShadingSums>& own,
-                                  std::vector<std::uint16_t>& missing) const {
+                                  std::vector<std::uint64_t>& missing) const {
     std::vector<ShadingSums> image(own.size());
 #pragma omp parallel for schedule(dynamic, 8)
     for (int y = 0; y < gbuffer_.height; ++y)
@@ -135,21 +145,21 @@ class Interleave {
 
   // [Segovia 2006] joint bilateral filter. Its tent gives every subset the same weight on a plane.
   // Deviation: normalised for each subset on its own, so that a pixel near an edge misses no light.
-  ShadingSums gather_at(int x, int y, const std::vector<ShadingSums>& own, std::uint16_t& missing) const {
+  ShadingSums gather_at(int x, int y, const std::vector<ShadingSums>& own, std::uint64_t& missing) const {
     const Surface& centre = gbuffer_.pixels[static_cast<std::size_t>(y * gbuffer_.width + x)];
-    std::array<Mean, kSubsets> means;
-    for (int v = std::max(y - kSide + 1, 0); v < std::min(y + kSide, gbuffer_.height); ++v)
-      for (int u = std::max(x - kSide + 1, 0); u < std::min(x + kSide, gbuffer_.width); ++u) {
+    std::array<Mean, kMaxSubsets> means;
+    for (int v = std::max(y - side_ + 1, 0); v < std::min(y + side_, gbuffer_.height); ++v)
+      for (int u = std::max(x - side_ + 1, 0); u < std::min(x + side_, gbuffer_.width); ++u) {
         const auto pixel = static_cast<std::size_t>(v * gbuffer_.width + u);
         const double weight = similarity(centre, gbuffer_.pixels[pixel]);
-        const int tent = (kSide - std::abs(u - x)) * (kSide - std::abs(v - y));
+        const int tent = (side_ - std::abs(u - x)) * (side_ - std::abs(v - y));
         if (weight > 0) means[subset_at(pixel)].add(own[pixel], weight * tent);
       }
     Mean total;
-    for (std::size_t k = 0; k < kSubsets; ++k) {
+    for (std::size_t k = 0; k < subsets_; ++k) {
       const Mean& m = means[k];
       if (m.weight == 0) {
-        missing = static_cast<std::uint16_t>(missing | 1U << k);
+        missing |= std::uint64_t{1} << k;
         continue;
       }
       total.aside += m.aside / m.weight;
@@ -162,6 +172,8 @@ class Interleave {
   const GBuffer& gbuffer_;
   const std::vector<ReceiverList>& receivers_;
   const std::vector<LightList>& lights_;
+  int side_;
+  std::size_t subsets_;
   DevicePass& pass_;
   Report& report_;
   std::size_t evaluations_ = 0;
@@ -170,9 +182,9 @@ class Interleave {
 }  // namespace
 
 std::vector<ShadingSums> run_interleaved(const GBuffer& gbuffer, const std::vector<ReceiverList>& receivers,
-                                         const std::vector<LightList>& lights, DevicePass& pass,
+                                         const std::vector<LightList>& lights, int side, DevicePass& pass,
                                          Report& report) {
-  return Interleave(gbuffer, receivers, lights, pass, report).run();
+  return Interleave(gbuffer, receivers, lights, side, pass, report).run();
 }
 
 }  // namespace vsgl

@@ -37,6 +37,8 @@ void report_classes(const GBuffer& gbuffer, const std::vector<ReceiverList>& rec
   if (std::all_of(lights.begin(), lights.end(), is_diffuse))
     report.skipped("specular emission", "no light has a specular lobe");
   if (!visibility) report.skipped("visibility", "none given");
+  if (visibility && std::holds_alternative<Unshadowed>(*visibility))
+    report.skipped("visibility", "everything is seen");
 }
 
 interop::vec3 product(interop::vec3 a, interop::vec3 b) {
@@ -56,7 +58,8 @@ std::vector<ShadingSums> run_shading(const GBuffer& gbuffer, const Visibility* v
   report_classes(gbuffer, receivers, lights, visibility, params.skip, report);
   PhaseTimer timer(report, kPhase);
   DevicePass pass(gbuffer, visibility, kernel, device);
-  if (params.schedule == "interleave") return run_interleaved(gbuffer, receivers, lights, pass, report);
+  if (params.schedule == "interleave" && params.interleave > 1)
+    return run_interleaved(gbuffer, receivers, lights, params.interleave, pass, report);
   std::vector<ShadingSums> image(gbuffer.pixels.size());
   std::size_t pixels = 0;
   for (const ReceiverList& list : receivers) {

@@ -3,60 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
-#include "base/error.h"
+#include "math/interop_vec.h"
+#include "math/subdivision.h"
 
 namespace vsgl::visibility {
 namespace {
 
-struct Triangle {
-  std::uint32_t instance, first_index;
-};
-
-// The triangles of a scene, addressed by a share of their total area.
-struct AreaTable {
-  std::vector<Triangle> triangles;
-  std::vector<double> end;            // summed area up to and including each triangle, m^2
-  std::vector<std::uint32_t> bucket;  // first triangle of each of bucket.size() - 1 equal shares of the area
+// Patches, addressed by a share of their total weight.
+struct ShareTable {
+  std::vector<double> end;            // summed weight up to and including each patch
+  std::vector<std::uint32_t> bucket;  // first patch of each of bucket.size() - 1 equal shares
 
   double total() const { return end.back(); }
 };
 
-Vec3 position_of(const scene::Vertex& v) {
-  return {v.position[0], v.position[1], v.position[2]};
-}
-
-const scene::Vertex& corner(const scene::Instance& instance, std::uint32_t first_index, int i) {
-  return instance.vertices[instance.indices[first_index + i]];
-}
-
-// Twice the area times the normal.
-Vec3 area_vector(const scene::Instance& instance, std::uint32_t first_index) {
-  const Vec3 a = position_of(corner(instance, first_index, 0));
-  return cross(position_of(corner(instance, first_index, 1)) - a,
-               position_of(corner(instance, first_index, 2)) - a);
-}
-
-AreaTable build_area_table(const scene::Scene& scene) {
-  AreaTable table;
-  double sum = 0;
-  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const auto& instance = scene.instances[i];
-    for (std::uint32_t first = 0; first + 2 < instance.indices.size(); first += 3) {
-      const double area = length(area_vector(instance, first)) / 2;
-      if (area <= 0) continue;  // degenerate: no point can fall on it
-      sum += area;
-      table.triangles.push_back({i, first});
-      table.end.push_back(sum);
-    }
-  }
-  if (!(sum > 0) || !std::isfinite(sum))
-    throw Error(ErrorCode::mesh_invalid,
-                "scene: no surface to cast a shadow; give it a mesh with triangles of non-zero area");
+ShareTable build_share_table(const std::vector<double>& weights) {
+  ShareTable table;
+  table.end.resize(weights.size());
+  std::partial_sum(weights.begin(), weights.end(), table.end.begin());
   const std::size_t buckets = std::clamp<std::size_t>(table.end.size(), 1, std::size_t{1} << 16);
   table.bucket.resize(buckets + 1);
   for (std::size_t b = 0; b <= buckets; ++b) {
-    const double share = sum * static_cast<double>(b) / static_cast<double>(buckets);
+    const double share = table.total() * static_cast<double>(b) / static_cast<double>(buckets);
     const auto at = std::upper_bound(table.end.begin(), table.end.end(), share);
     table.bucket[b] =
         static_cast<std::uint32_t>(std::min<std::size_t>(at - table.end.begin(), table.end.size() - 1));
@@ -64,8 +34,8 @@ AreaTable build_area_table(const scene::Scene& scene) {
   return table;
 }
 
-// The triangle that holds the share s in [0,1) of the area, and how far into it, 0..1.
-std::pair<std::size_t, double> locate(const AreaTable& table, double s) {
+// The patch that holds the share s in [0,1) of the weight, and how far into it, 0..1.
+std::pair<std::size_t, double> locate(const ShareTable& table, double s) {
   const double target = s * table.total();
   const auto b = static_cast<std::size_t>(s * static_cast<double>(table.bucket.size() - 1));
   const auto first = table.end.begin() + table.bucket[b];
@@ -96,50 +66,51 @@ bool is_hole(const scene::Scene& scene, const scene::Material& material, double 
 }
 
 // [Ritschel 2008] points on the surfaces, at random there.
-// Deviation: point k takes the share frac(k phi) of the area, phi the golden ratio, so that any run of
-// consecutive points is stratified over the triangles. Inside its triangle one coordinate is the residual of
-// that share, the other a hash: a second Kronecker coordinate would put the points of one triangle on a few
-// lines.
-interop::SplatPoint make_point(const scene::Scene& scene, const AreaTable& table, std::uint64_t k,
-                               std::uint64_t seed, double radius) {
+// Deviation: point k takes the share frac(k phi) of the weight, phi the golden ratio, so that any run of
+// consecutive points is stratified over the patches. Inside its patch one coordinate is the residual of that
+// share, the other a hash: a second Kronecker coordinate would put the points of one patch on a few lines.
+// `radius`: of the points of each patch, m.
+interop::SplatPoint make_point(const scene::Scene& scene, const std::vector<Patch>& patches,
+                               const ShareTable& table, std::uint64_t k, std::uint64_t seed,
+                               const std::vector<float>& radius) {
   const std::uint64_t fraction = k * 0x9E3779B97F4A7C15u;  // 2^64 frac(k phi)
   const auto [j, r1] = locate(table, static_cast<double>(fraction >> 11) * 0x1p-53);
-  const auto [index, first] = table.triangles[j];
-  const auto& instance = scene.instances[index];
+  const Patch& patch = patches[j];
   const double root = std::sqrt(r1);
   const double r2 = hash_unit(k + seed * max_pool_size);
-  const double weight[3] = {1 - root, root * (1 - r2), root * r2};
+  const Vec3 weights = subdivision_point(patch.side, patch.cell, {root * (1 - r2), root * r2});
+  const Corners corners = corners_of(scene, patch.instance, patch.first_index);
   Vec3 position;
   double u = 0, v = 0;
-  for (int i = 0; i < 3; ++i) {
-    const auto& vertex = corner(instance, first, i);
-    position += weight[i] * position_of(vertex);
-    u += weight[i] * static_cast<double>(vertex.uv[0]);
-    v += weight[i] * static_cast<double>(vertex.uv[1]);
+  for (const auto& [corner, weight] :
+       {std::pair{corners[0], weights.x}, {corners[1], weights.y}, {corners[2], weights.z}}) {
+    position += weight * position_of(*corner);
+    u += weight * static_cast<double>(corner->uv[0]);
+    v += weight * static_cast<double>(corner->uv[1]);
   }
-  const Vec3 normal = normalise(area_vector(instance, first));
-  const bool hole = is_hole(scene, scene.materials[instance.material], u, v);
-  const auto f = [](double x) { return static_cast<float>(x); };
-  return {{f(position.x), f(position.y), f(position.z)},
-          hole ? 0.0f : f(radius),
-          {f(normal.x), f(normal.y), f(normal.z)},
-          0.0f};
+  const bool hole = is_hole(scene, scene.materials[scene.instances[patch.instance].material], u, v);
+  return {to_float(position), hole ? 0.0f : radius[j], to_float(normalise(area_vector(corners))), 0.0f};
 }
 
 }  // namespace
 
-PointPool sample_points(const scene::Scene& scene, std::size_t light_count, int points_per_light,
+PointPool sample_points(const scene::Scene& scene, const std::vector<Patch>& patches,
+                        const std::vector<double>& weights, std::size_t light_count, int points_per_light,
                         std::uint64_t seed) {
-  const AreaTable table = build_area_table(scene);
+  const ShareTable table = build_share_table(weights);
   PointPool pool;
-  pool.area = table.total();
+  for (const Patch& patch : patches) pool.area += patch.area;
   pool.disk_radius = std::sqrt(pool.area / (std::numbers::pi * points_per_light));
+  std::vector<float> radius;
+  for (std::size_t j = 0; j < patches.size(); ++j)
+    radius.push_back(static_cast<float>(
+        pool.disk_radius * std::sqrt(patches[j].area / pool.area / (weights[j] / table.total()))));
   const std::size_t size = std::min(max_pool_size, light_count * static_cast<std::size_t>(points_per_light));
   pool.points.resize(size);
   std::size_t holes = 0;
 #pragma omp parallel for schedule(static) reduction(+ : holes)
   for (std::size_t k = 0; k < size; ++k) {
-    pool.points[k] = make_point(scene, table, k, seed, pool.disk_radius);
+    pool.points[k] = make_point(scene, patches, table, k, seed, radius);
     if (pool.points[k].radius == 0.0f) ++holes;
   }
   pool.holes = holes;

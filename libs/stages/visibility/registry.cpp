@@ -2,11 +2,14 @@
 
 #include "base/error.h"
 #include "base/find_method.h"
+#include "stages/visibility/aism.h"
 #include "stages/visibility/ism.h"
 #include "stages/visibility/maps.h"
+#include "stages/visibility/none.h"
 #include "stages/visibility/ratio.h"
 #include "stages/visibility/rays.h"
 #include "stages/visibility/raytraced.h"
+#include "stages/visibility/tessellated.h"
 #include "stages/visibility/visibility.h"
 
 namespace vsgl {
@@ -58,7 +61,7 @@ void check_lights(const VisibilityMethod& method, const VisibilityInputs& inputs
 }
 
 void check_gbuffer(const VisibilityMethod& method, const VisibilityInputs& inputs) {
-  if (!method.needs_gbuffer) return;
+  if (!method.needs_gbuffer && !inputs.lights.is_tree()) return;  // every cut needs one
   if (!inputs.gbuffer)
     throw Error(ErrorCode::missing_option,
                 "gbuffer: method " + method.name + " needs one; give --gbuffer gbuffer.exr");
@@ -92,16 +95,28 @@ const std::vector<VisibilityMethod>& visibility_methods() {
       {.name = "auto",
        .summary = "ism for a list of lights, raytraced for an environment's, rays or ratio for a tree",
        .for_lists = true,
+       .for_environments = true,
        .for_trees = true},
       {.name = "ism",
        .summary = "imperfect shadow maps: surface points splatted into a hemisphere per light",
-       .for_environments = true,
        .for_lists = true,
        .needs_device = true,
        .run = visibility::build_ism},
+      {.name = "aism",
+       .summary = "the same with points that are denser where they may shadow what the camera sees",
+       .for_lists = true,
+       .needs_gbuffer = true,
+       .needs_device = true,
+       .run = visibility::build_aism},
+      {.name = "tessellated",
+       .summary = "the same with points from a subdivision of the triangles, made per light on the device",
+       .for_lists = true,
+       .needs_device = true,
+       .run = visibility::build_tessellated},
       {.name = "raytraced",
        .summary = "exact: a ray from each pixel to the point that represents each light",
        .for_lists = true,
+       .for_environments = true,
        .needs_gbuffer = true,
        .run = visibility::trace_visibility},
       {.name = "rays",
@@ -116,17 +131,24 @@ const std::vector<VisibilityMethod>& visibility_methods() {
        .needs_device = true,
        .run = visibility::map_cut},
       {.name = "ratio",
-       .for_environments = true,
        .summary = "a preview: the cut without shadows, dimmed by the share of light that a few rays a pixel see",
        .for_trees = true,
        .needs_gbuffer = true,
        .run = visibility::estimate_ratio},
+      {.name = "none",
+       .summary = "everything is seen: no shadows",
+       .for_lists = true,
+       .for_environments = true,
+       .for_trees = true,
+       .run = visibility::build_none},
   };
   return methods;
 }
 
 VisibilityChoice choose_visibility(const VisibilityInputs& inputs, const VisibilityParams& params) {
   if (params.method != "auto") return {row(params.method), "asked for"};
+  if (inputs.lights.kind == LightsKind::environment)
+    return {row("raytraced"), "the lights are an environment's"};
   if (!inputs.lights.is_tree()) return {row("ism"), "the lights are a list"};
   const std::size_t triangles = inputs.scene.triangle_count();
   const std::string count = "the lights are a tree, and " + std::to_string(triangles) + " triangles are ";
@@ -135,20 +157,12 @@ VisibilityChoice choose_visibility(const VisibilityInputs& inputs, const Visibil
   return {row("rays"), count + "at most " + std::to_string(kManyTriangles)};
 }
 
-      {.name = "none",
-       .summary = "everything is seen: no shadows",
-       .for_lists = true,
-       .for_environments = true,
-       .for_trees = true,
-       .run = visibility::build_none},
 Visibility build_visibility(const VisibilityInputs& inputs, const VisibilityParams& params,
                             gpu::Device* device, Report& report) {
   const auto& [method, reason] = choose_visibility(inputs, params);
   check_params(params);
   check_lights(method, inputs);
   check_gbuffer(method, inputs);
-  if (inputs.lights.kind == LightsKind::environment)
-    return {row("raytraced"), "the lights are an environment's"};
   check_cut(method, inputs);
   if (method.needs_device && !device)
     throw Error(ErrorCode::internal, "build_visibility: method " + method.name + " without a device");

@@ -57,7 +57,7 @@ TEST(VisibilityBits, SchemaTellsTheKind) {
   EXPECT_EQ(std::get<VisibilityBits>(read_visibility(folder / "bits.exr")).words, sample_bits(40).words);
   EXPECT_EQ(std::get<ShadowMaps>(read_visibility(folder / "maps.exr")).views.size(), 5u);
   write(folder / "lights.exr", sample_lights(3, false), sample_provenance());
-  expect_error(ErrorCode::wrong_schema, {"lights.exr", "'ism' or 'visibility' or 'cut' is needed"},
+  expect_error(ErrorCode::wrong_schema, {"lights.exr", "'ism' or 'visibility' or 'cut' or 'unshadowed' is needed"},
                [&] { read_visibility(folder / "lights.exr"); });
 }
 
@@ -83,6 +83,27 @@ TEST(VisibilityBits, ReaderErrors) {
   expect(ErrorCode::wrong_size, {"2 channels for 20 lights"}, [&](ExrPart& part) {
     part.attributes["visibility.lights"] = 20;
     for (auto& w : word(part, 0)) w &= (1U << 20) - 1;
+  });
+  expect(ErrorCode::invalid_data, {"'visibility.lights' is -1"},
+         [](ExrPart& part) { part.attributes["visibility.lights"] = -1; });
+  expect(ErrorCode::missing_attribute, {"anchor"}, [](ExrPart& part) { part.attributes.erase("anchor"); });
+}
+
+TEST(Unshadowed, RoundTripAndReaderErrors) {
+  const TemporaryFolder folder;
+  write(folder / "valid.exr", Visibility(Unshadowed{700, {1, 2, 3}}), sample_provenance());
+  const auto read = std::get<Unshadowed>(read_visibility(folder / "valid.exr"));
+  EXPECT_EQ(read.lights, 700);
+  EXPECT_EQ(read.anchor, (Vec3{1, 2, 3}));
+  const auto expect = [&](ErrorCode code, std::vector<std::string> fragments, auto change) {
+    rewrite(folder / "valid.exr", folder / "broken.exr", [&](ExrFile& file) { change(file.parts[0]); });
+    fragments.push_back("broken.exr");
+    expect_error(code, fragments, [&] { read_visibility(folder / "broken.exr"); });
+  };
+  expect(ErrorCode::invalid_data, {"visibility.V", "one value, 1"},
+         [](ExrPart& part) { part.levels[0].channels["visibility.V"] = std::vector{0.5f}; });
+  expect(ErrorCode::missing_channel, {"visibility.V"}, [](ExrPart& part) {
+    part.levels[0].channels = {{"other.V", std::vector{1.0f}}};
   });
   expect(ErrorCode::invalid_data, {"'visibility.lights' is -1"},
          [](ExrPart& part) { part.attributes["visibility.lights"] = -1; });

@@ -57,6 +57,17 @@ class Bits : public testing::TestWithParam<const char*> {
   const ShadingParams params_{.light_model = GetParam()};
 };
 
+TEST_P(Bits, UnshadowedIsAsWithoutVisibilityBitForBit) {
+  const Visibility unshadowed = Unshadowed{1000, {}};
+  const Indirect none = test::shade_box(scene_.gbuffer, scene_.lights, params_);
+  const Indirect given = test::shade_box(scene_.gbuffer, scene_.lights, params_, &unshadowed);
+  EXPECT_TRUE(same(given.diffuse, none.diffuse));
+  EXPECT_TRUE(same(given.specular, none.specular));
+  const Visibility of_others = Unshadowed{999, {}};
+  test::expect_error(ErrorCode::wrong_size, {"visibility", "999", "1000"},
+                     [&] { test::shade_box(scene_.gbuffer, scene_.lights, params_, &of_others); });
+}
+
 TEST_P(Bits, AllVisibleIsAsWithoutVisibilityBitForBit) {
   const Visibility all = scene_.bits([](auto, auto) { return true; });
   for (const bool skip : {true, false}) {

@@ -1,5 +1,7 @@
 // Which schedules fit which lights, and interleaved sampling.
 
+#include <cstring>
+
 #include "../expect_error.h"
 #include "run.h"
 
@@ -43,8 +45,8 @@ struct Plane {
       light.variance = 0.01f;
     }
   }
-  Indirect shaded(const char* model, const char* schedule) const {
-    return test::shade_box(gbuffer, lights, {.light_model = model, .schedule = schedule});
+  Indirect shaded(const char* model, const char* schedule, int side = 4) const {
+    return test::shade_box(gbuffer, lights, {.light_model = model, .schedule = schedule, .interleave = side});
   }
 };
 
@@ -69,6 +71,43 @@ TEST(Interleave, EqualsAllLightsOnAPlane) {
     }
 }
 
+// The wider the pattern, the more of the light's curvature is lost.
+TEST(Interleave, EqualsAllLightsOnAPlaneForEveryPattern) {
+  const Plane plane(0);
+  const Indirect all = plane.shaded("fvpl", "flat");
+  EXPECT_LT(largest_difference(plane.shaded("fvpl", "interleave", 2).diffuse, all.diffuse), 5e-4);
+  EXPECT_LT(largest_difference(plane.shaded("fvpl", "interleave", 8).diffuse, all.diffuse), 1e-3);
+}
+
+TEST(Interleave, OfOnePixelIsFlatToTheBit) {
+  const Plane plane(2, interop::NDF_GGX);
+  const Indirect some = plane.shaded("fvpl", "interleave", 1), all = plane.shaded("fvpl", "flat");
+  ASSERT_EQ(some.diffuse.size(), all.diffuse.size());
+  EXPECT_EQ(0,
+            std::memcmp(some.diffuse.data(), all.diffuse.data(), all.diffuse.size() * sizeof(interop::vec3)));
+  ASSERT_EQ(some.specular.size(), all.specular.size());
+  EXPECT_EQ(
+      0, std::memcmp(some.specular.data(), all.specular.data(), all.specular.size() * sizeof(interop::vec3)));
+}
+
+// A pixel like none around it sums what it lacks itself, whatever the pattern.
+TEST(Interleave, FeaturesOfOnePixelAreExact) {
+  Plane plane(0);
+  std::vector<std::size_t> alone;
+  for (std::size_t k = 0; k < 5; ++k) {
+    alone.push_back(40 * (4 * k + 1) + 7 * k + 2);
+    interop::Surface& s = plane.gbuffer.pixels[alone.back()];
+    s.normal = s.shading_normal = test::to_float(normalise(Vec3{1, 0.2 * static_cast<double>(k), 0.3}));
+  }
+  const Indirect all = plane.shaded("fvpl", "flat");
+  for (const int side : {2, 4, 8}) {
+    const Indirect some = plane.shaded("fvpl", "interleave", side);
+    for (const std::size_t pixel : alone)
+      EXPECT_LT(largest_difference({some.diffuse[pixel]}, {all.diffuse[pixel]}), 1e-6)
+          << side << ' ' << pixel;
+  }
+}
+
 // The light does not cross the step: beyond it there are other pixels on the same surface, and where there
 // are not, the missing subsets are computed.
 TEST(Interleave, StopsAtEdges) {
@@ -85,13 +124,18 @@ TEST(Interleave, StopsAtEdges) {
       3e-3);
 }
 
-TEST(Interleave, EvaluatesASixteenth) {
+TEST(Interleave, EvaluatesItsShare) {
   const Plane plane(0);
-  Report report;
-  shade(plane.gbuffer, plane.lights, nullptr, {.schedule = "interleave"}, test::shared_device(), report);
-  const auto counts = report.to_json()["counts"];
-  EXPECT_EQ(counts["evaluations"], 40 * 24 * 1024 / 16);
-  EXPECT_EQ(counts["subsets_recomputed"], 0);
+  for (const int side : {1, 2, 4, 8}) {
+    Report report;
+    shade(plane.gbuffer, plane.lights, nullptr, {.schedule = "interleave", .interleave = side},
+          test::shared_device(), report);
+    const auto counts = report.to_json()["counts"];
+    EXPECT_EQ(counts["evaluations"], 40 * 24 * 1024 / (side * side));
+    if (side > 1) {
+      EXPECT_EQ(counts["subsets_recomputed"], 0);
+    }
+  }
 }
 
 TEST(Interleave, SharpLobesTakeAllLights) {
@@ -137,6 +181,8 @@ TEST(Schedule, FitsTheLights) {
   test::expect_error(ErrorCode::bad_value, {"light_model", "fvpl"}, run(tree, {.light_model = "vsgl"}));
   test::expect_error(ErrorCode::bad_value, {"schedule", "ismap"}, run(tree, {}));
   test::expect_error(ErrorCode::out_of_range, {"diffuse_scale"}, run(list, {.diffuse_scale = 3}));
+  for (const int side : {0, 3, 16})
+    test::expect_error(ErrorCode::out_of_range, {"interleave", "none of"}, run(list, {.interleave = side}));
   Cut cut;
   cut.width = gbuffer.width;
   cut.height = gbuffer.height;
