@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "base/tool.h"
 #include "reference/options.h"
+#include "reference/sphere_lights.h"
 #include "scene/scene_input.h"
 #include "stages/rsm/options.h"
 
@@ -14,6 +15,7 @@ struct Arguments {
   vsgl::scene::SceneInput scene;
   fs::path gbuffer, output;
   std::string resolution;
+  bool sphere_lights = false;
   vsgl::reference::ReferenceParams params;
 };
 
@@ -27,9 +29,13 @@ void declare(vsgl::Tool& tool, Arguments& a) {
       ->excludes(gbuffer);
   tool.output("-o,--output", a.output, "radiance and its variance to write")->required();
   vsgl::reference::add_options(app, a.params);
-  tool.state(
+  CLI::Option* spheres = app.add_flag("--sphere-lights", a.sphere_lights,
+                                      "direct light of the scene's sphere lights in place of one-bounce light");
+  for (const char* limit : {"--target-error", "--time-budget"}) app.get_option(limit)->excludes(spheres);
+  CLI::Option* checkpoint = tool.state(
       "--checkpoint", a.params.checkpoint,
       "file to save the work in and to take it up again from; stays when all is done, for more --samples");
+  checkpoint->excludes(spheres);
   tool.keep_from_provenance(app.add_option("--checkpoint-interval", a.params.checkpoint_interval_s,
                                            "seconds from one saving to the next")
                                 ->check(CLI::NonNegativeNumber));
@@ -46,6 +52,22 @@ vsgl::GBuffer bake(const vsgl::Tool& tool, vsgl::scene::Scene& scene, const std:
   return vsgl::bake_gbuffer(scene, device, report);
 }
 
+vsgl::Reference trace(const Arguments& a, const vsgl::scene::Scene& scene, const vsgl::GBuffer& gbuffer,
+                      vsgl::Report& report) {
+  if (a.sphere_lights) {
+    const auto spheres = vsgl::scene::load_sphere_lights(a.scene.path, scene.anchor);
+    if (spheres.empty())
+      throw vsgl::Error(vsgl::ErrorCode::bad_light,
+                        a.scene.path.string() + ": the scene has no sphere light; add one under \"sphere_lights\"");
+    return vsgl::reference::trace_sphere_lights(scene, spheres, gbuffer, a.params, report);
+  }
+  constexpr std::size_t kSteps = 1000;
+  vsgl::Progress bar("reference", kSteps);
+  return vsgl::reference::trace_reference(scene, gbuffer, a.params, report, [&](double done) {
+    bar.step(static_cast<std::size_t>(done * static_cast<double>(kSteps)));
+  });
+}
+
 vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
   a.params.seed = tool.common().seed;
   if (tool.app().count("--samples") == 0 && (a.params.target_error || a.params.time_budget_s))
@@ -53,11 +75,7 @@ vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::Outpu
   vsgl::scene::Scene scene = a.scene.read(tool, report);
   const vsgl::GBuffer gbuffer =
       a.gbuffer.empty() ? bake(tool, scene, a.resolution, report) : vsgl::read_gbuffer(a.gbuffer);
-  constexpr std::size_t kSteps = 1000;
-  vsgl::Progress bar("reference", kSteps);
-  const vsgl::Reference image = vsgl::reference::trace_reference(
-      scene, gbuffer, a.params, report,
-      [&](double done) { bar.step(static_cast<std::size_t>(done * static_cast<double>(kSteps))); });
+  const vsgl::Reference image = trace(a, scene, gbuffer, report);
   const vsgl::PhaseTimer timer(report, "write");
   vsgl::write(outputs.add(a.output), image, tool.provenance());
   return vsgl::Exit::ok;

@@ -1,0 +1,35 @@
+#include "stages/lights/sphere_lights.h"
+
+#include <numbers>
+
+#include "math/interop_vec.h"
+
+namespace vsgl {
+namespace {
+
+interop::Light light_of(const scene::SphereLight& sphere) {
+  using std::numbers::pi;
+  const double radius2 = sphere.radius * sphere.radius;
+  interop::Light light{};
+  light.position = light.origin = to_float(sphere.position);
+  light.variance = static_cast<float>(radius2 / 4);
+  light.power_diffuse = to_float(4 * pi * pi * radius2 * sphere.radiance);
+  light.diffuse_axis = light.specular_axis = {0, 0, 1};  // of sharpness 0: any will do
+  light.normal = light.shading_normal = light.incident = {0, 0, 1};
+  light.alpha = 1;
+  return light;
+}
+
+}  // namespace
+
+Lights sphere_lights(const std::vector<scene::SphereLight>& spheres, Vec3 anchor, double scene_radius) {
+  Lights out;
+  out.method = kSphereLights;
+  out.anchor = anchor;
+  out.scene_radius = scene_radius;
+  out.requested = static_cast<int>(spheres.size());
+  for (const scene::SphereLight& sphere : spheres) out.lights.push_back(light_of(sphere));
+  return out;
+}
+
+}  // namespace vsgl
