@@ -70,7 +70,7 @@ class Sequence:
         found = []
         for frame in range(self.frames):
             comparison = self.compare(f"{test}-{truth}.seams", self.file(test, frame), self.file(truth, frame), "--channels", "indirect",
-                                      "--seams", "16")
+                                      "--metric", "seam_p99", "--seams", "16")
             found.append(next(layer["seams"] for layer in comparison["layers"] if layer["layer"] == "indirect"))
         return found
 
