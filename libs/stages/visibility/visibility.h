@@ -21,10 +21,10 @@ struct VisibilityParams {
   double splat_scale = 1.2;  // radius of a splatted disk, in radii of the disk that a point stands for; 0..4
   bool pull_push = true;     // close the holes between splats
   bool skip_powerless = true;  // lights without power get an empty map, or are seen from nowhere
-  std::uint64_t seed = 0;      // of the points' places inside their triangles
+  std::uint64_t seed = 0;      // of points' places inside their triangles, and of ratio's rays
   double error = 0.02;         // of a cut: relative error of the image that the user accepts, 1e-5..1
   bool exact = false;          // rays: one for each node of the cut and pixel, nothing interpolated
-  int rays = 4;               // ratio: a pixel, 1..64
+  int rays = 4;                // ratio: a pixel, 1..64
   int level = -1;  // maps: level of the tree whose nodes get a map; -1: that with about 1024 nodes
 };
 
