@@ -172,11 +172,13 @@ TEST(Ratio, IsWhatAutoChoosesForManyTriangles) {
 
 // ---- The filter
 
-TEST(ShareFilter, IsCentredAndAddsUpToOne) {
+TEST(ShareFilter, IsATentThatAddsUpToOne) {
   const GBuffer gbuffer = ceiling();
   std::vector<float> shares(kWidth * kHeight);
   shares[20 * kWidth + 30] = 1;
   const std::vector<float> spread = visibility::filter_shares(gbuffer, shares);
+  EXPECT_NEAR(spread[20 * kWidth + 30], 1 / 16.0, 1e-6);
+  EXPECT_NEAR(spread[20 * kWidth + 33], 1 / 64.0, 1e-6);
   double sum = 0, x = 0, y = 0;
   for (int pixel = 0; pixel < kWidth * kHeight; ++pixel) {
     const double share = static_cast<double>(spread[static_cast<std::size_t>(pixel)]);
