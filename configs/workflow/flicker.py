@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""How the methods flicker while a light moves: the sequences of configs/sequences/flicker.json, what compare tells of them, steps at
-tile borders frame by frame, and a picture of one image row over time. What is there already and unchanged is not made again.
+"""How the methods flicker while a light moves: the sequences of configs/sequences/flicker.json, what compare tells of them, steps
+at tile borders frame by frame, and a picture of one image row over time. What is there already and unchanged is not made again.
 docs/cut.md explains the figures."""
 
 import argparse
@@ -32,8 +32,8 @@ def make(sequence, plan, scene):
 def seams(sequence, label):
     """Percentiles of the steps at all tile borders of a frame: the medians and the largest values over the frames."""
     excess = [frame["excess"] for frame in sequence.seams(label, LIMIT)]
-    return {name: {"median": float(numpy.median([frame[name] for frame in excess])), "largest": max(frame[name] for frame in excess)}
-            for name in ("median", "p99", "max")}
+    columns = {name: [frame[name] for frame in excess] for name in ("median", "p99", "max")}
+    return {name: {"median": float(numpy.median(values)), "largest": max(values)} for name, values in columns.items()}
 
 
 def measure(sequence, variants):
@@ -54,8 +54,8 @@ def displayed(image, exposure):
 
 
 def draw(sequence, row, variants, target):
-    """A column a method: its first frame, the image row marked there over time (downwards), how much its error changes from a frame
-    to the next along that row, and the largest such change of each pixel."""
+    """A column a method: its first frame, the image row marked there over time (downwards), how much its error changes from a
+    frame to the next along that row, and the largest such change of each pixel."""
     truth = sequence.load(LIMIT)
     columns = {TRUTH: sequence.load(TRUTH), **{label: sequence.load(label) for label in variants}}
     exposure = 0.8 / numpy.percentile(luminance(truth)[luminance(truth) > 0], 97)
@@ -80,7 +80,7 @@ def draw(sequence, row, variants, target):
 
 
 def table(name, found):
-    lines = [f"{name:<16}{'flicker':>9}{'95%':>18}{'visible':>9}{'p99 step':>10}{'pops':>7}   against the limit: flicker, p99, pops"]
+    lines = [f"{name:<16}{'flicker':>9}{'95%':>18}{'visible':>9}{'p99 step':>10}{'pops':>7}   to the limit: flicker, p99, pops"]
     for label, truths in found.items():
         f = truths[TRUTH]
         low, high = f["flicker_interval"]
@@ -92,13 +92,14 @@ def table(name, found):
         lines.append(line)
     steps = found["default"]["seams"]
     lines.append("default, steps at tile borders beyond those beside them: " +
-                 ", ".join(f"{name} {value['median']:.4f} (largest frame {value['largest']:.4f})" for name, value in steps.items()))
+                 ", ".join(f"{name} {value['median']:.4f} (largest {value['largest']:.4f})" for name, value in steps.items()))
     return "\n".join(lines)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("plan", type=pathlib.Path, nargs="?", default=DEFAULT, help="JSON file (default: configs/sequences/flicker.json)")
+    parser.add_argument("plan", type=pathlib.Path, nargs="?", default=DEFAULT,
+                        help="JSON file (default: configs/sequences/flicker.json)")
     parser.add_argument("--bin", required=True, help="folder of the built tools")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the results")
     parser.add_argument("--scenes", nargs="*", help="some of the plan's scenes (default: all)")

@@ -15,8 +15,8 @@ LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722])  # of linear Rec.709
 
 
 class Sequence:
-    """The frames 0 .. frames - 1 of a scene, by several methods; that called LABEL has the files LABEL.0000.exr and so on. What is
-    there already and unchanged is not made again."""
+    """The frames 0 .. frames - 1 of a scene, by several methods; that called LABEL has the files LABEL.0000.exr and so on. What
+    is there already and unchanged is not made again."""
 
     def __init__(self, bin_dir, folder, frames, resolution, common=("--if-changed",)):
         self.chain = Chain(bin_dir, folder, common)
@@ -43,14 +43,15 @@ class Sequence:
         text = json.dumps({"$schema": "vsgltools/pipeline/1", **pipeline}, indent=2) + "\n"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
-        return self.chain.run("render", self.chain.path("scene.json"), "--pipeline", str(path), "--frames", f"0:{self.frames - 1}",
-                              "--resolution", self.resolution, "-o", self.files(label), *arguments, outputs=self.names(label))
+        return self.chain.run("render", self.chain.path("scene.json"), "--pipeline", str(path), "--frames",
+                              f"0:{self.frames - 1}", "--resolution", self.resolution, "-o", self.files(label), *arguments,
+                              outputs=self.names(label))
 
     def reference(self, label, samples, seed):
         """Traces all frames. Seeds differ between frames: their noise must not repeat, or else it would hide."""
         for frame, name in enumerate(self.names(label)):
-            self.chain.run("reference", self.chain.path("scene.json"), "--frame", str(frame), "--resolution", self.resolution, "--samples",
-                           str(samples), "--seed", str(seed + frame), "-o", self.chain.path(name), outputs=[name])
+            self.chain.run("reference", self.chain.path("scene.json"), "--frame", str(frame), "--resolution", self.resolution,
+                           "--samples", str(samples), "--seed", str(seed + frame), "-o", self.chain.path(name), outputs=[name])
 
     def compare(self, name, *arguments):
         """Runs compare; returns what it writes. Images that differ are no failure."""
@@ -69,8 +70,8 @@ class Sequence:
         """Of each frame: steps at the borders of 16 x 16 tiles, and how far they exceed those beside them."""
         found = []
         for frame in range(self.frames):
-            comparison = self.compare(f"{test}-{truth}.seams", self.file(test, frame), self.file(truth, frame), "--channels", "indirect",
-                                      "--metric", "seam_p99", "--seams", "16")
+            comparison = self.compare(f"{test}-{truth}.seams", self.file(test, frame), self.file(truth, frame), "--channels",
+                                      "indirect", "--metric", "seam_p99", "--seams", "16")
             found.append(next(layer["seams"] for layer in comparison["layers"] if layer["layer"] == "indirect"))
         return found
 
@@ -82,8 +83,8 @@ class Sequence:
                 command += [self.file(label, frame), "--ch", f"indirect.{channel}"]
         with tempfile.TemporaryDirectory() as folder:
             target = pathlib.Path(folder) / "frames.tif"  # of one channel, one picture below the other
-            done = subprocess.run([*command, "--mosaic", f"1x{3 * self.frames}", "-d", "float", "-o", target], capture_output=True,
-                                  text=True, check=False)
+            done = subprocess.run([*command, "--mosaic", f"1x{3 * self.frames}", "-d", "float", "-o", target],
+                                  capture_output=True, text=True, check=False)
             if done.returncode != 0:
                 raise StageFailed(f"{self.files(label)}: {done.stderr}")
             with PIL.Image.open(target) as picture:
