@@ -339,6 +339,8 @@ TEST_F(SceneJson, SchemaNamesTheSameKeys) {
   const Json animation{{"frame_rate_hz", 30}, {"frames", 2}, {"tracks", Json::array({track})}};
   full.update({{"anchor", {0, 0, 0}}, {"resolution", {8, 8}}, {"lumens_per_watt", 683}});
   full["animation"] = animation;
+  const Json sphere{{"name", "bulb"}, {"position", {0, 1, 0}}, {"radius_m", 0.1}, {"radiance_w_m2_sr", 1}};
+  full["sphere_lights"] = Json::array({sphere});
   full["environment"] = {{"file", "map.exr"}, {"rotation_deg", {0, 0, 0}}, {"scale", 1}};
   ASSERT_NO_THROW(scene::load_scene(folder.write_json("scene.json", full)));
 
@@ -352,6 +354,7 @@ TEST_F(SceneJson, SchemaNamesTheSameKeys) {
   EXPECT_EQ(keys(parts.at("material").at("properties")),
             together({material}, {"roughness", "phong_exponent"}));
   EXPECT_EQ(keys(parts.at("light").at("properties")), together({spot, sun}));
+  EXPECT_EQ(keys(parts.at("sphere_light").at("properties")), keys(sphere));
   EXPECT_EQ(keys(parts.at("camera").at("properties")), together({full["camera"]}, {"gltf_name"}));
   EXPECT_EQ(keys(parts.at("environment").at("properties")), keys(full["environment"]));
   EXPECT_EQ(keys(parts.at("animation").at("properties")), keys(animation));
@@ -359,7 +362,7 @@ TEST_F(SceneJson, SchemaNamesTheSameKeys) {
   EXPECT_EQ(keys(parts.at("key").at("properties")), keys(key));
   for (const auto& part :
        {schema, parts.at("mesh"), parts.at("transform"), parts.at("material"), parts.at("light"),
-        parts.at("camera"), parts.at("environment"), parts.at("animation"), parts.at("track"), parts.at("key")}) {
+        parts.at("camera"), parts.at("sphere_light"), parts.at("environment"), parts.at("animation"), parts.at("track"), parts.at("key")}) {
     EXPECT_EQ(part.at("additionalProperties"), false);
   }
 }
