@@ -26,6 +26,8 @@ struct LightsParams {
   std::string power = "conserved";       // fis-2016: conserved (adds up to the RSM's) | paper (as printed)
   std::string points = "lattice";        // lattice | fibonacci | random
   std::string lobe_filter = "banerjee";  // one of lobe_filter_names(): how lobes are averaged
+  int kmeans_iterations = 0;        // kmeans: of Lloyd's algorithm at most, 0..20
+  double kmeans_normal_weight = 0;  // kmeans: of normals in the squared distance, >= 0
   int level = -1;  // tree: -1, all of it; 0..64, a list of that level's nodes and of the leaves above it
   int environment_size = 512;  // environment: rows of texels at most, a power of two, 8..2048
   int vsl_neighbours = 10;      // vsl: k >= 1; a light reaches as far as its k-th nearest

@@ -20,6 +20,8 @@ LightSet generate_vsl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*,
 LightSet generate_fis_2014(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_fis_2016(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_metropolis(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+LightSet generate_kmeans_2d(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
+LightSet generate_kmeans_3d(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_texels(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_two_vsgl(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);
 LightSet generate_tree(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&);

@@ -32,6 +32,12 @@ void add_options(CLI::App& app, LightsParams& params) {
   app.add_option("--large-step", params.large_step,
                  "metropolis: probability that a mutation goes anywhere, and not just a few texels")
       ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--kmeans-iterations", params.kmeans_iterations,
+                 "kmeans: how often centres move to the means of their clusters at most")
+      ->check(CLI::Range(0, 20));
+  app.add_option("--kmeans-normal-weight", params.kmeans_normal_weight,
+                 "kmeans: weight of normals in squared distances over the RSM's side or the scene's radius")
+      ->check(CLI::NonNegativeNumber);
   app.add_option(
          "--level", params.level,
          "tree: -1, all of it; else a plain list of this level's nodes (0: the root) and the leaves above")

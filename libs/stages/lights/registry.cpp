@@ -22,6 +22,13 @@ void check_params(const LightsMethod& method, const LightsParams& params) {
                 "kernel_solver: \"" + params.kernel_solver + "\" is none of newton, bisection");
   if (params.power != "conserved" && params.power != "paper")
     throw Error(ErrorCode::bad_value, "power: \"" + params.power + "\" is none of conserved, paper");
+  if (params.kmeans_iterations < 0 || params.kmeans_iterations > 20)
+    throw Error(ErrorCode::out_of_range,
+                "kmeans_iterations: " + std::to_string(params.kmeans_iterations) + " is outside 0..20");
+  if (!(params.kmeans_normal_weight >= 0 && std::isfinite(params.kmeans_normal_weight)))
+    throw Error(ErrorCode::out_of_range, "kmeans_normal_weight: " +
+                                             std::to_string(params.kmeans_normal_weight) +
+                                             " is not 0 or above; 0 leaves normals aside");
   if (params.level < -1 || params.level > 64)
     throw Error(ErrorCode::out_of_range,
                 "level: " + std::to_string(params.level) + " is outside -1..64; -1 takes the whole tree");
@@ -87,6 +94,12 @@ const std::vector<LightsMethod>& lights_methods() {
       {.name = "metropolis",
        .summary = "as fis-2016, about Markov chains that go on from frame to frame",
        .run = generate_metropolis},
+      {.name = "kmeans-2d",
+       .summary = "every texel at the sampled texel that is nearest in the RSM",
+       .run = generate_kmeans_2d},
+      {.name = "kmeans-3d",
+       .summary = "every texel at the sampled texel that is nearest in the scene",
+       .run = generate_kmeans_3d},
       {.name = "texels",
        .summary = "every texel that reflects, neither sampled nor filtered",
        .needs_pdf = false,
