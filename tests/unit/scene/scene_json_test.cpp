@@ -362,7 +362,8 @@ TEST_F(SceneJson, SchemaNamesTheSameKeys) {
   EXPECT_EQ(keys(parts.at("key").at("properties")), keys(key));
   for (const auto& part :
        {schema, parts.at("mesh"), parts.at("transform"), parts.at("material"), parts.at("light"),
-        parts.at("camera"), parts.at("sphere_light"), parts.at("environment"), parts.at("animation"), parts.at("track"), parts.at("key")}) {
+        parts.at("camera"), parts.at("sphere_light"), parts.at("environment"), parts.at("animation"),
+        parts.at("track"), parts.at("key")}) {
     EXPECT_EQ(part.at("additionalProperties"), false);
   }
 }
