@@ -22,7 +22,7 @@ struct VisibilityParams {
   bool pull_push = true;     // close the holes between splats
   bool skip_powerless = true;  // lights without power get an empty map, or are seen from nowhere
   std::uint64_t seed = 0;      // of points' places inside their triangles, and of ratio's rays
-  double error = 0.02;         // of a cut: relative error of the image that the user accepts, 1e-5..1
+  double error = 0.1;          // of a cut: RMSE over the mean of the image that the user accepts, 1e-5..1
   bool exact = false;          // rays: one for each node of the cut and pixel, nothing interpolated
   int rays = 4;                // ratio: a pixel, 1..64
   int level = -1;  // maps: level of the tree whose nodes get a map; -1: that with about 1024 nodes

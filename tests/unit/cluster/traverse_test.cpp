@@ -27,7 +27,11 @@ struct Room {
   Room() {
     const Rsm rsm = room_rsm(32, 2);
     const TexelTree tree = split_texels(lit_texels(rsm));
-    lights = {"tree", rsm.anchor, rsm.scene_radius, 0, tree_lights(rsm, tree), tree.levels};
+    lights.method = "tree";
+    lights.anchor = rsm.anchor;
+    lights.scene_radius = rsm.scene_radius;
+    lights.lights = tree_lights(rsm, tree);
+    lights.levels = tree.levels;
     clusters = pack_clusters(lights);
   }
   TreeTraversal traversal() const { return {gbuffer, lights, clusters}; }

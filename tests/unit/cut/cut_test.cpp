@@ -16,7 +16,13 @@ const Lights& lights() {
   static const Lights instance = [] {
     const Rsm rsm = room_rsm(32, 2);
     const TexelTree tree = split_texels(lit_texels(rsm));
-    return Lights{"tree", rsm.anchor, rsm.scene_radius, 0, tree_lights(rsm, tree), tree.levels};
+    Lights out;
+    out.method = "tree";
+    out.anchor = rsm.anchor;
+    out.scene_radius = rsm.scene_radius;
+    out.lights = tree_lights(rsm, tree);
+    out.levels = tree.levels;
+    return out;
   }();
   return instance;
 }
@@ -99,7 +105,10 @@ TEST(BuildCut, ChecksItsInputs) {
 
 TEST(BuildCut, OfNoLights) {
   Report report;
-  Lights none{"tree", {}, 3.2, 0, {}, {0, 0}};
+  Lights none;
+  none.method = "tree";
+  none.scene_radius = 3.2;
+  none.levels = {0, 0};
   const Cut cut = build_cut(gbuffer(), none, {}, report);
   EXPECT_EQ(cut.tiles.size(), 15U);
   EXPECT_TRUE(cut.nodes.empty());
