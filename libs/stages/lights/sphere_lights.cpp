@@ -13,7 +13,7 @@ interop::Light light_of(const scene::SphereLight& sphere) {
   interop::Light light{};
   light.position = light.origin = to_float(sphere.position);
   light.variance = static_cast<float>(radius2 / 4);
-  light.power_diffuse = to_float(3.8 * pi * pi * radius2 * sphere.radiance);
+  light.power_diffuse = to_float(4 * pi * pi * radius2 * sphere.radiance);
   light.diffuse_axis = light.specular_axis = {0, 0, 1};  // of sharpness 0: any will do
   light.normal = light.shading_normal = light.incident = {0, 0, 1};
   light.alpha = 1;
