@@ -12,9 +12,11 @@ namespace {
 using metrics::Metric;
 
 std::string list_of_metrics() {
+  std::size_t width = 0;
+  for (const Metric* metric : metrics::all_metrics()) width = std::max(width, metric->name.size());
   std::string text;
   for (const Metric* metric : metrics::all_metrics())
-    text += std::string(metric->name) + std::string(16 - metric->name.size(), ' ') +
+    text += std::string(metric->name) + std::string(width + 2 - metric->name.size(), ' ') +
             std::string(metric->formula) + "\n";
   text.pop_back();
   return text;

@@ -36,8 +36,7 @@ void declare(vsgl::Tool& tool, Arguments& a) {
       ->needs(map);
   tool.app()
       .add_option("--environment-scale", a.environment.scale, "factor on the map's values")
-      ->check(CLI::Range(0.0, 1e30))
-      ->needs(map);
+      ->check(CLI::Range(0.0, 1e30));
   CLI::Option* spheres =
       tool.input("--sphere-lights", a.spheres, "scene JSON whose sphere lights become lights, by no method");
   spheres->excludes(rsm)->excludes(map);
@@ -111,6 +110,8 @@ vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::Outpu
   if (a.rsm.empty() && a.environment.file.empty())
     throw vsgl::Error(vsgl::ErrorCode::missing_option,
                       "--rsm is required; or give --environment with method environment, or --sphere-lights");
+  if (a.environment.file.empty() && tool.app().count("--environment-scale") > 0)
+    throw vsgl::Error(vsgl::ErrorCode::conflicting_options, "--environment-scale requires --environment");
   a.params.seed = tool.common().seed;
   std::optional<vsgl::gpu::Device> device;
   if (!a.environment.file.empty() || vsgl::lights_method(a.params.method).needs_device) {

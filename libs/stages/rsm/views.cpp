@@ -67,9 +67,10 @@ std::vector<LightView> cube_faces(const LightSource& light) {
 
 std::vector<LightView> light_views(const scene::Scene& scene) {
   if (scene.lights.empty())
-    throw Error(ErrorCode::bad_light,
-                "the scene has no light but its environment, which no RSM shows; add a light, or take the "
-                "environment's lights");
+    throw Error(
+        ErrorCode::bad_light,
+        "the scene has no light that an RSM shows; add a light, or take the lights of its environment or "
+        "its sphere lights");
   std::vector<LightView> views;
   for (const LightSource& light : scene.lights) {
     require_sound(light);

@@ -13,9 +13,8 @@ SpecularReceiver take_receiver() {
 void put(AsgProduct p) { put(p.axis); put(p.exponent); put(p.integral); }
 
 void call() {
-  if (FUNCTION == 6u) {
-    put(asg_product(take3(), take2(), take()));
-    return;
+  switch (FUNCTION) {
+    case 6u: put(asg_product(take3(), take2(), take())); return;
   }
   SpecularReceiver r = take_receiver();
   switch (FUNCTION) {

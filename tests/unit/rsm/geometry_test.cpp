@@ -1,6 +1,7 @@
 // Positions, normals and footprints of what a view sees.
 #include <gtest/gtest.h>
 
+#include "../expect_error.h"
 #include "scenes.h"
 
 namespace vsgl {
@@ -143,7 +144,11 @@ TEST(Geometry, EmptySceneIsAllZero) {
   const GBuffer gbuffer = test::see(test::scene_of({}, {}));
   EXPECT_EQ(gbuffer.pixels.size(), 64u * 48u);
   EXPECT_EQ(gbuffer.pixels[100].id, interop::NO_INSTANCE);
-  EXPECT_TRUE(bake(test::scene_of(test::room(1), {}), 16).layers.empty());
+}
+
+TEST(Geometry, NoLightIsAnErrorOfItsReflectiveShadowMap) {
+  test::expect_error(ErrorCode::bad_light, {"add a light"},
+                     [] { bake(test::scene_of(test::room(1), {}), 16); });
 }
 
 TEST(Geometry, CameraSeesTheSceneTheRightWayUp) {

@@ -1,6 +1,8 @@
 // Which schedules fit which lights, and interleaved sampling.
 
+#include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "../expect_error.h"
 #include "run.h"
@@ -97,7 +99,8 @@ TEST(Interleave, FeaturesOfOnePixelAreExact) {
   for (std::size_t k = 0; k < 5; ++k) {
     alone.push_back(40 * (4 * k + 1) + 7 * k + 2);
     interop::Surface& s = plane.gbuffer.pixels[alone.back()];
-    s.normal = s.shading_normal = test::to_float(normalise(Vec3{1, 0.2 * static_cast<double>(k), 0.3}));
+    const double angle = 0.4 * std::numbers::pi * static_cast<double>(k);  // nor like one another
+    s.normal = s.shading_normal = test::to_float(normalise(Vec3{std::cos(angle), std::sin(angle), 0.3}));
   }
   const Indirect all = plane.shaded("fvpl", "flat");
   for (const int side : {2, 4, 8}) {
