@@ -1,7 +1,7 @@
 #pragma once
 
 // The light of clusters at a tile's samples, unshadowed, for the choice of a cut. Luminances in float32, one
-// sample a vector lane; the same bytes on every processor. Private to this library.
+// sample a vector lane; the same bytes on every processor.
 
 #include <array>
 
