@@ -29,8 +29,9 @@ void declare(vsgl::Tool& tool, Arguments& a) {
       ->excludes(gbuffer);
   tool.output("-o,--output", a.output, "radiance and its variance to write")->required();
   vsgl::reference::add_options(app, a.params);
-  CLI::Option* spheres = app.add_flag("--sphere-lights", a.sphere_lights,
-                                      "direct light of the scene's sphere lights in place of one-bounce light");
+  CLI::Option* spheres =
+      app.add_flag("--sphere-lights", a.sphere_lights,
+                   "direct light of the scene's sphere lights in place of one-bounce light");
   for (const char* limit : {"--target-error", "--time-budget"}) app.get_option(limit)->excludes(spheres);
   CLI::Option* checkpoint = tool.state(
       "--checkpoint", a.params.checkpoint,
@@ -56,9 +57,6 @@ vsgl::Reference trace(const Arguments& a, const vsgl::scene::Scene& scene, const
                       vsgl::Report& report) {
   if (a.sphere_lights) {
     const auto spheres = vsgl::scene::load_sphere_lights(a.scene.path, scene.anchor);
-    if (spheres.empty())
-      throw vsgl::Error(vsgl::ErrorCode::bad_light,
-                        a.scene.path.string() + ": the scene has no sphere light; add one under \"sphere_lights\"");
     return vsgl::reference::trace_sphere_lights(scene, spheres, gbuffer, a.params, report);
   }
   constexpr std::size_t kSteps = 1000;

@@ -94,10 +94,6 @@ vsgl::Lights from_sphere_lights(vsgl::Tool& tool, const Arguments& a, vsgl::Repo
     if (file != a.spheres) tool.depends_on(file);
   const vsgl::scene::Scene scene = vsgl::scene::load_scene(a.spheres);
   const auto spheres = vsgl::scene::load_sphere_lights(a.spheres, scene.anchor);
-  if (spheres.empty())
-    throw vsgl::Error(
-        vsgl::ErrorCode::bad_light,
-        a.spheres.string() + ": the scene has no sphere light; add one under \"sphere_lights\"");
   report.count("lights", spheres.size());
   return vsgl::sphere_lights(spheres, scene.anchor, scene.radius);
 }
@@ -111,7 +107,7 @@ vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::Outpu
     throw vsgl::Error(vsgl::ErrorCode::missing_option,
                       "--rsm is required; or give --environment with method environment, or --sphere-lights");
   if (a.environment.file.empty() && tool.app().count("--environment-scale") > 0)
-    throw vsgl::Error(vsgl::ErrorCode::conflicting_options, "--environment-scale requires --environment");
+    throw vsgl::Error(vsgl::ErrorCode::missing_option, "--environment-scale requires --environment");
   a.params.seed = tool.common().seed;
   std::optional<vsgl::gpu::Device> device;
   if (!a.environment.file.empty() || vsgl::lights_method(a.params.method).needs_device) {

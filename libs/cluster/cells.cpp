@@ -9,22 +9,11 @@ namespace vsgl {
 namespace {
 
 constexpr int kCell = static_cast<int>(interop::TILE) / 4;
-static_assert(kCell * kCell == kTileSamples);
 
 // Of the cell that holds the pixel, those that are no background.
 TileSamples pixels_around(const GBuffer& gbuffer, std::uint32_t pixel) {
-  const int width = gbuffer.width, x0 = static_cast<int>(pixel) % width / kCell * kCell,
-            y0 = static_cast<int>(pixel) / width / kCell * kCell;
-  TileSamples out;
-  for (int k = 0; k < kTileSamples; ++k) {
-    const int x = x0 + k % kCell, y = y0 + k / kCell;
-    if (x >= width || y >= gbuffer.height) continue;
-    const auto i = static_cast<std::uint32_t>(y * width + x);
-    if (gbuffer.pixels[i].id == interop::NO_INSTANCE) continue;
-    out.pixel[static_cast<std::size_t>(k)] = i;
-    out.present |= 1U << k;
-  }
-  return out;
+  const int x = static_cast<int>(pixel) % gbuffer.width, y = static_cast<int>(pixel) / gbuffer.width;
+  return block_pixels(gbuffer, x / kCell * kCell, y / kCell * kCell);
 }
 
 void bound(const SampleReceivers& receivers, Cell& cell) {

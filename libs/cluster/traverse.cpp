@@ -30,6 +30,7 @@ constexpr float kNearShare = 8;
 constexpr int kMeanTiles = 256;
 
 constexpr int kTile = static_cast<int>(interop::TILE), kCell = kTile / 4;
+static_assert(kCell * kCell == kTileSamples);
 
 // ---- Samples
 
@@ -287,6 +288,25 @@ TileSamples tile_samples(const GBuffer& gbuffer, int tile) {
   return out;
 }
 
+TileSamples block_pixels(const GBuffer& gbuffer, int left, int top) {
+  TileSamples out;
+  for (int k = 0; k < kTileSamples; ++k) {
+    const int x = left + k % kCell, y = top + k / kCell;
+    if (x >= gbuffer.width || y >= gbuffer.height) continue;
+    const auto pixel = static_cast<std::uint32_t>(y * gbuffer.width + x);
+    if (gbuffer.pixels[pixel].id == interop::NO_INSTANCE) continue;
+    out.pixel[static_cast<std::size_t>(k)] = pixel;
+    out.present |= 1U << k;
+  }
+  return out;
+}
+
+void append(Cut& cut, const TileCut& tile) {
+  cut.tiles.push_back({static_cast<std::uint32_t>(cut.nodes.size()),
+                       static_cast<std::uint32_t>(tile.entries.size()), static_cast<float>(tile.error)});
+  for (const TileCut::Entry& entry : tile.entries) cut.nodes.push_back(entry.node);
+}
+
 TreeTraversal::TreeTraversal(const GBuffer& gbuffer, const Lights& lights,
                              const std::vector<interop::Cluster>& clusters)
     : gbuffer_(gbuffer), clusters_(clusters), lights_(lights) {
@@ -319,6 +339,14 @@ TileCut TreeTraversal::cut(const TileSamples& samples, const CutCriterion& crite
   const std::vector<Cell> cells = cells_of(gbuffer_, samples);
   return Choice(clusters_, receivers, cells, samples, criterion, visibility)
       .run(start_nodes(criterion.start_level));
+}
+
+std::vector<TileCut> TreeTraversal::cut_all(const CutCriterion& criterion) const {
+  std::vector<TileCut> tiles(static_cast<std::size_t>(tile_count(gbuffer_)));
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t i = 0; i < tiles.size(); ++i)
+    tiles[i] = cut(tile_samples(gbuffer_, static_cast<int>(i)), criterion, {});
+  return tiles;
 }
 
 std::vector<std::uint32_t> TreeTraversal::start_nodes(std::uint32_t level) const {

@@ -24,6 +24,8 @@ struct TileSamples {
   std::uint32_t present = 0;                        // bit k: sample k exists
 };
 TileSamples tile_samples(const GBuffer& gbuffer, int tile);
+// The 4x4 pixels from (left, top) on, those that are in the image and no background.
+TileSamples block_pixels(const GBuffer& gbuffer, int left, int top);
 
 struct CutCriterion {
   // Of the tile, estimated: eps is lowered until it is no larger.
@@ -51,7 +53,10 @@ struct TileCut {
   std::size_t evaluations = 0;  // nodes times samples
 };
 
-// A cut is chosen by luminance. Both inputs must outlive it; clusters: of pack_clusters(lights). cut() may be
+// Adds the entries of the next tile.
+void append(Cut& cut, const TileCut& tile);
+
+// A cut is chosen by luminance. All inputs must outlive it; clusters: of pack_clusters(lights). cut() may be
 // called from many threads; its result depends on nothing else, and is the same on every processor.
 class TreeTraversal {
  public:
@@ -64,6 +69,8 @@ class TreeTraversal {
 
   TileCut cut(const TileSamples& samples, const CutCriterion& criterion,
               const NodeVisibility& visibility) const;
+  // Of all tiles, row by row, where every sample sees every node.
+  std::vector<TileCut> cut_all(const CutCriterion& criterion) const;
 
  private:
   std::vector<std::uint32_t> start_nodes(std::uint32_t level) const;

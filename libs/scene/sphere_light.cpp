@@ -1,5 +1,7 @@
 #include "scene/sphere_light.h"
 
+#include "base/error.h"
+
 namespace vsgl::scene {
 namespace {
 
@@ -36,7 +38,11 @@ std::vector<SphereLight> read_sphere_lights(const JsonValue& root, Vec3 anchor) 
 }
 
 std::vector<SphereLight> load_sphere_lights(const std::filesystem::path& json_path, Vec3 anchor) {
-  return read_sphere_lights(JsonValue::parse_file(json_path), anchor);
+  std::vector<SphereLight> out = read_sphere_lights(JsonValue::parse_file(json_path), anchor);
+  if (out.empty())
+    throw Error(ErrorCode::bad_light,
+                json_path.string() + ": the scene has no sphere light; add one under \"sphere_lights\"");
+  return out;
 }
 
 }  // namespace vsgl::scene

@@ -18,8 +18,9 @@ struct SphereLight {
   Vec3 radiance{1, 1, 1};  // W/(m^2 sr)
 };
 
-// The entries of "sphere_lights" in a scene JSON; none where it has none. Throw json_*, file_not_found.
+// The entries of "sphere_lights" in a scene JSON; none where it has none. Throws json_*.
 std::vector<SphereLight> read_sphere_lights(const JsonValue& root, Vec3 anchor);
+// Those of a file, at least one. Throws json_*, file_not_found, bad_light.
 std::vector<SphereLight> load_sphere_lights(const std::filesystem::path& json_path, Vec3 anchor);
 
 }  // namespace vsgl::scene

@@ -31,17 +31,14 @@ struct Totals {
 Totals join(const std::vector<TileCut>& tiles, Cut& cut) {
   Totals totals;
   for (const TileCut& tile : tiles) {
-    const auto first = static_cast<std::uint32_t>(cut.nodes.size());
-    const auto count = static_cast<std::uint32_t>(tile.entries.size());
-    cut.tiles.push_back({first, count, static_cast<float>(tile.error)});
-    for (const TileCut::Entry& entry : tile.entries) cut.nodes.push_back(entry.node);
+    append(cut, tile);
     totals.evaluations += tile.evaluations;
     totals.samples += tile.samples;
     if (tile.samples == 0) {
       ++totals.skipped;
       continue;
     }
-    totals.sizes.push_back(count);
+    totals.sizes.push_back(cut.tiles.back().count);
     totals.squared_error += tile.error * tile.error;
   }
   return totals;
@@ -78,15 +75,12 @@ Cut build_cut(const GBuffer& gbuffer, const Lights& lights, const CutParams& par
   cut.anchor = lights.anchor;
   cut.lights = static_cast<int>(lights.lights.size());
   cut.error = params.error;
-  std::vector<TileCut> tiles(static_cast<std::size_t>(cut.columns()) * static_cast<std::size_t>(cut.rows()));
+  std::vector<TileCut> tiles;
   {
     const PhaseTimer timer(report, "choose cut");
     const std::vector<interop::Cluster> clusters = pack_clusters(lights);
     const TreeTraversal traversal(gbuffer, lights, clusters);
-    const CutCriterion criterion = traversal.criterion(params.error);
-#pragma omp parallel for schedule(dynamic)
-    for (std::size_t i = 0; i < tiles.size(); ++i)
-      tiles[i] = traversal.cut(tile_samples(gbuffer, static_cast<int>(i)), criterion, {});
+    tiles = traversal.cut_all(traversal.criterion(params.error));
   }
   describe(join(tiles, cut), report);
   return cut;

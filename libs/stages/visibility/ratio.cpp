@@ -29,18 +29,8 @@ constexpr std::size_t kBlocks = interop::TILE / kBlock * (interop::TILE / kBlock
 TileSamples pixels_of(const GBuffer& gbuffer, const Cut& cut, std::size_t tile, std::size_t block) {
   constexpr int kSide = static_cast<int>(interop::TILE), kRow = kSide / kBlock;
   const int number = static_cast<int>(tile), place = static_cast<int>(block);
-  const int left = number % cut.columns() * kSide + place % kRow * kBlock,
-            top = number / cut.columns() * kSide + place / kRow * kBlock;
-  TileSamples out;
-  for (int k = 0; k < kTileSamples; ++k) {
-    const int x = left + k % kBlock, y = top + k / kBlock;
-    if (x >= gbuffer.width || y >= gbuffer.height) continue;
-    const auto pixel = static_cast<std::uint32_t>(y * gbuffer.width + x);
-    if (gbuffer.pixels[pixel].id == interop::NO_INSTANCE) continue;
-    out.pixel[static_cast<std::size_t>(k)] = pixel;
-    out.present |= 1U << k;
-  }
-  return out;
+  return block_pixels(gbuffer, number % cut.columns() * kSide + place % kRow * kBlock,
+                      number / cut.columns() * kSide + place / kRow * kBlock);
 }
 
 // Where between two strata's borders a pixel's rays fall, [0,1): in a window of 8x8 pixels, wherever it is,
@@ -131,18 +121,8 @@ Cut choose_entries(const VisibilityInputs& inputs, const std::vector<interop::Cl
     cut.anchor = gbuffer.anchor;
     cut.lights = static_cast<int>(inputs.lights.lights.size());
     cut.error = error;
-    std::vector<TileCut> tiles(static_cast<std::size_t>(cut.columns()) *
-                               static_cast<std::size_t>(cut.rows()));
     const TreeTraversal traversal(gbuffer, inputs.lights, clusters);
-    const CutCriterion criterion = traversal.criterion(error);
-#pragma omp parallel for schedule(dynamic)
-    for (std::size_t i = 0; i < tiles.size(); ++i)
-      tiles[i] = traversal.cut(tile_samples(gbuffer, static_cast<int>(i)), criterion, {});
-    for (const TileCut& tile : tiles) {
-      cut.tiles.push_back({static_cast<std::uint32_t>(cut.nodes.size()),
-                           static_cast<std::uint32_t>(tile.entries.size()), static_cast<float>(tile.error)});
-      for (const TileCut::Entry& entry : tile.entries) cut.nodes.push_back(entry.node);
-    }
+    for (const TileCut& tile : traversal.cut_all(traversal.criterion(error))) append(cut, tile);
   }
   cut.masks.assign(cut.nodes.size(), 0);
   cut.mask_words.assign(interop::MASK_WORDS, ~0U);
