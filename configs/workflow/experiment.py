@@ -150,7 +150,7 @@ def main():
     if status != 0 or {"-n", "--dry-run", "--dryrun"} & set(options.snakemake):
         return status
     remove_strangers(plan, folder, "--notemp" in options.snakemake)
-    print(f"results: {folder}/report.html, results.csv, results.json")
+    print(f"results: {folder}/report.html, results.csv, equal.csv, results.json")
     return 0
 
 

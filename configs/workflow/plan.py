@@ -11,6 +11,8 @@ import shlex
 
 import jsonschema
 
+from equal import total_lights
+
 WITHOUT_DENSITY = ("tree", "texels", "two-vsgl")  # methods of vsgl-gen that follow none; the first is its default
 TIMED = ("rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "render")  # that `repetitions` is for
 SCHEMA = pathlib.Path(__file__).resolve().parents[1] / "schema" / "experiment.schema.json"
@@ -84,6 +86,17 @@ def check_names(path, experiment):
                     f"belongs beside it, as a list: /variants/{name}/samples")
             require(experiment["reference"]["seed"] not in variant.get("seeds", experiment["seeds"]), ["reference", "seed"],
                     f"is a seed of the variant \"{name}\" too, which would share its paths and look better than it is")
+    groups = experiment.get("groups", {})
+    for name, members in groups.items():
+        for i, member in enumerate(members):
+            require(member in variants, ["groups", name, i], f"no variant \"{member}\"; there are {', '.join(variants)}")
+    for name in variants:
+        require(not groups or any(name in members for members in groups.values()), ["groups"], f"none has the variant \"{name}\"")
+    if "equal" in experiment:
+        lights, base = experiment["equal"]["lights"], experiment["equal"]["time_of"]
+        counts = variants.get(base, {}).get("counts", [])
+        require(lights in [total_lights(variants[base], n) for n in counts], ["equal", "time_of"],
+                f"no variant \"{base}\" with {lights} lights")
     for name, decomposition in experiment.get("decompositions", {}).items():
         where = ["decompositions", name]
         for used, place in [(decomposition["variant"], where + ["variant"])] + [

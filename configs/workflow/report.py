@@ -6,9 +6,12 @@ import json
 import pathlib
 
 import plots
+from equal import NEAR
 
 AGAINST = {"time_s": "time", "n": "the number of lights or samples"}
 FRONT = " Rings on a dotted line: the Pareto front, which no other point beats in both."
+EQUAL = (f"Between two images of a method errors are interpolated on logarithmic axes; before its first and after its last one stands for "
+         f"times that differ from its own by a factor of at most {NEAR}.")
 DECOMPOSED = ("the causes of the error, each taken away after those above it. Share of the error's power, with its 95% interval; "
               "mean and root mean square relative to the reference's mean.")
 
@@ -34,15 +37,45 @@ def conditions(experiment, rows):
             f"{disturbed if jobs > 1 else alone}")
 
 
-def figures(experiment, rows, x):
+def figures(metrics, rows, x, group):
     """Plots of each metric; those with nothing to show are left out."""
     found = []
-    for metric in experiment["plots"]:
-        target = f"plots/{metric}-{x}"
+    for metric in metrics:
+        target = f"plots/{'-'.join(part for part in (metric, x, group) if part)}"
         if plots.plot(rows, metric, x, target):
             what = f"{plots.LABELS.get(metric, metric)} against {AGAINST[x]}"
             found.append({"type": "figure", "svg": f"{target}.svg", "alt": f"{what}, logarithmic axes, a panel a scene",
                           "caption": f"{what}; the mean over seeds and frames.{FRONT if x == 'time_s' else ''}"})
+    return found
+
+
+def grouped_figures(experiment, rows, x):
+    """Of the first group every metric, of the others the first one: a section's content, or its sections."""
+    if "groups" not in experiment:
+        return {"content": figures(experiment["plots"], rows, x, None)}
+    found = []
+    for name in experiment["groups"]:
+        metrics = experiment["plots"] if not found else experiment["plots"][:1]
+        content = figures(metrics, members(experiment, rows, name), x, name)
+        found.append({"title": name.replace("-", " "), "content": content})
+    return {"sections": [section for section in found if section["content"]]}
+
+
+def members(experiment, rows, group):
+    """The rows of a group's variants, in its order."""
+    return [row for name in experiment["groups"][group] for row in rows if row["variant"] == name]
+
+
+def equal_tables(tables):
+    """All variants side by side, a table a scene."""
+    found = []
+    for entry in tables:
+        metric = plots.LABELS.get(entry["metric"], entry["metric"])
+        caption = (f"{entry['scene']}: {metric} with {entry['lights']} lights; and after {entry['time_s']:.2f} s, which {entry['time_of']} "
+                   f"takes for them. {EQUAL}")
+        columns = ["method", f"time with {entry['lights']} lights, s", "error", f"error after {entry['time_s']:.2f} s", "found"]
+        keys = ["variant", "time_s", "error", "error_in_time", "how"]
+        found.append(table(caption, columns, [[method[key] for key in keys] for method in entry["methods"]]))
     return found
 
 
@@ -95,10 +128,12 @@ def decomposition_tables(decompositions):
 
 def sections(plan, results):
     experiment, rows = plan["experiment"], results["rows"]
-    viewers = [{"title": scene, "content": [viewer([row for row in rows if row["scene"] == scene])]}
+    shown = members(experiment, rows, next(iter(experiment["groups"]))) if "groups" in experiment else rows
+    viewers = [{"title": scene, "content": [viewer([row for row in shown if row["scene"] == scene])]}
                for scene in experiment["scenes"]]
-    found = [{"title": "Error against time", "content": figures(experiment, rows, "time_s")},
-             {"title": "Error against N", "content": figures(experiment, rows, "n")},
+    found = [{"title": "Error against time", **grouped_figures(experiment, rows, "time_s")},
+             {"title": "Error against N", **grouped_figures(experiment, rows, "n")},
+             {"title": "Equal numbers of lights, equal times", "content": equal_tables(results["equal"])},
              {"title": "Causes of the error", "content": decomposition_tables(results["decompositions"])},
              {"title": "Images", "sections": viewers},
              {"title": "Figures", "content": [main_table(experiment, rows), stage_table(rows)]}]

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Makes the experiment's table, results.json and results.csv, from plan.json and what the stages left. Runs in the output
-folder."""
+"""Makes the experiment's tables, results.json, results.csv and equal.csv, from plan.json and what the stages left. Runs in the
+output folder."""
 
 import csv
 import json
 import pathlib
+
+import equal
 
 STAGES = ["rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "render", "reference"]
 KEYS = ["scene", "frame", "variant", "n", "error", "seed"]
@@ -63,9 +65,12 @@ def main():
             {"metrics": metrics(row["comparison"]), "times": row_times(row["stages"])} for row in plan["rows"]]
     decompositions = [{key: entry[key] for key in ("name", "scene", "frame", "n")} |
                       {"decomposition": read_json(entry["comparison"])} for entry in plan["decompositions"]]
-    result = {"$schema": "vsgltools/experiment-results/1", "rows": rows, "decompositions": decompositions}
+    tables = equal.compare_methods(plan["experiment"], rows)
+    result = {"$schema": "vsgltools/experiment-results/1", "rows": rows, "decompositions": decompositions, "equal": tables}
     pathlib.Path("results.json").write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
     write_csv(rows, "results.csv")
+    with open("equal.csv", "w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([equal.COLUMNS, *equal.table_rows(tables)])
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ def main():
     start = time.monotonic()
     run(options.bin, options.undisturbed)
     print(f"{len(files(options.undisturbed))} files in {time.monotonic() - start:.1f} s")
-    for name in ("results.json", "results.csv", "report.html"):
+    for name in ("results.json", "results.csv", "equal.csv", "report.html"):
         assert (options.undisturbed / name).stat().st_size > 0, name
     assert not list(options.undisturbed.rglob("ism.exr")), "shadow maps are kept though nobody needs them any more"
 

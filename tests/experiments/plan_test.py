@@ -109,6 +109,24 @@ class Strictness(Files):
         self.experiment["decompositions"]["split"]["steps"][1]["variant"] = "tree"
         self.assert_error("/decompositions/split/steps/1/variant", "one for each of its errors")
 
+    def test_group_of_an_unknown_variant(self):
+        self.experiment["groups"] = {"all": ["fis", "fiss"]}
+        self.assert_error("/groups/all/1", "no variant \"fiss\"")
+
+    def test_variant_without_a_group(self):
+        self.experiment["groups"] = {"lists": ["fis", "fis-sharp", "texels"], "trees": ["fis", "tree", "bare-tree"]}
+        self.assert_error("/groups", "none has the variant \"paths\"")
+
+    def test_equal_time_of_an_unknown_variant(self):
+        self.experiment["equal"] = {"lights": 64, "time_of": "fiss"}
+        self.assert_error("/equal/time_of", "no variant \"fiss\" with 64 lights")
+
+    def test_equal_time_of_missing_lights(self):
+        self.experiment["equal"] = {"lights": 256, "time_of": "fis-sharp"}
+        self.assert_error("/equal/time_of", "no variant \"fis-sharp\" with 256 lights")
+        self.experiment["equal"]["time_of"] = "fis"
+        self.read()
+
     def test_seed_of_the_reference(self):
         self.experiment["reference"]["seed"] = 1
         self.assert_error("/reference/seed", "paths")
@@ -247,6 +265,27 @@ class Sharing(Files):
         self.assertEqual(words[1].count(".exr"), 1, "the first seed is not part of the mean")
         self.assertEqual(words[3].count(".exr"), 1)
         self.assertEqual(set(stage["inputs"]["steps"]), {path for word in words[1::2] for path in word.split("=")[1].split(",")})
+
+
+class Methods(unittest.TestCase):
+    """error-vs-time.json sets every method beside the others."""
+
+    # What its scenes have no light for, and what only stands for another one.
+    ABSENT = {"environment", "auto", "flat", "cut"}
+    CHOICES = [("pdf_build", "method"), ("vsgl_gen", "method"), ("vsgl_gen", "lobe_filter"), ("ismap", "method"), ("shade", "light_model"),
+               ("shade", "schedule"), ("shade", "specular_lobe")]
+
+    def test_all_are_there(self):
+        path = ROOT / "configs" / "experiments" / "error-vs-time.json"
+        pipelines = [variant["pipeline"] for variant in read_experiment(path)["variants"].values() if "pipeline" in variant]
+        stages = json.loads((ROOT / "configs" / "schema" / "pipeline.schema.json").read_text(encoding="utf-8"))["properties"]
+        for stage, option in self.CHOICES:
+            schema = stages[stage]["properties"][option]
+            used = {(pipeline.get(stage) or {}).get(option, schema["default"]) for pipeline in pipelines}
+            with self.subTest(f"{stage}.{option}"):
+                self.assertGreater(len(schema["enum"]), 3)
+                self.assertEqual(set(schema["enum"]) - used - self.ABSENT, set())
+        self.assertTrue(any("progressive" in pipeline for pipeline in pipelines))
 
 
 class Patches(unittest.TestCase):

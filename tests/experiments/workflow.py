@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXPERIMENT = ROOT / "configs" / "workflow" / "experiment.py"
 TINY = ROOT / "configs" / "experiments" / "tiny.json"
 # Measured, or made from what was measured.
-MEASURED = ["report.json", "results.json", "results.csv", "report.html", "report-spec.json"]
+MEASURED = ["report.json", "results.json", "results.csv", "equal.csv", "report.html", "report-spec.json"]
 
 
 def parser(description):
