@@ -20,6 +20,6 @@ uvec3 pcg3d(uvec3 v) {
 uvec2 r2_bits(uint k) { return k * uvec2(0xC13FA9A9u, 0x91E10DA5u); }
 
 // To [0, 1), exactly: the upper 24 bits.
-vec2 point_of_bits(uvec2 bits) { return vec2(bits >> 8u) * exp2(-24.0); }
+vec2 point_of_bits(uvec2 bits) { return vec2(bits >> 8u) * 5.9604644775390625e-8; }
 
 #endif

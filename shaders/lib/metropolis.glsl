@@ -41,9 +41,9 @@ vec2 chain_point(Chain chain, int top) {
   return point_of_bits(uvec2(chain.x, chain.y) << uint(top));
 }
 
-// At a point of a texel.
+// At a point of a texel. (ldexp is exact on every device; exp2 of a whole number need not be.)
 Chain chain_at(uint layer, ivec2 texel, vec2 point, int top) {
-  const uvec2 at = ((uvec2(texel) << uint(31 - top)) << 1u) | uvec2(point * exp2(float(32 - top)));
+  const uvec2 at = ((uvec2(texel) << uint(31 - top)) << 1u) | uvec2(ldexp(point, ivec2(32 - top)));
   return Chain(at.x, at.y, layer);
 }
 

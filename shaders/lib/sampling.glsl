@@ -9,7 +9,7 @@
 
 float density_at(uint layer, int level, ivec2 texel);
 
-const float BELOW_ONE = 1.0 - exp2(-24.0);
+const float BELOW_ONE = 0.999999940395355;  // 1 - 2^-24
 
 // floor(2^32 numerator / denominator) by long division, 11 + 11 + 10 binary digits. Domain: numerator < denominator <= 2^21.
 uint fraction_bits(uint numerator, uint denominator) {

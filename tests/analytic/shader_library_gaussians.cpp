@@ -31,7 +31,7 @@ LibraryFile special() {
            {"erfc",
             numbers({-30, -3, -1, -0.2, -1e-4, 0, 1e-3, 0.05, 0.3, 0.9, 1.5, 2.5, 4, 9, 1e4}),
             [](Arguments& a) { return std::erfc(a.take()); },
-            {0, 3e-7}}}};
+            {0, 5e-7}}}};
 }
 
 Values values_of(const SgLobe& l) {
@@ -157,10 +157,11 @@ LibraryFile lobe() {
            {"lobe_decode", encoded_lobes(), decode(lobe_decode), {1e-6, 1e-7}},
            {"toksvig_encode", lobes, encode(toksvig_encode), {4e-7, 1e-15}},
            {"toksvig_decode", encoded_lobes(), decode(toksvig_decode), {1e-6, 1e-7}},
-           // Cancellation in float32 (see there): broad lobes only, and all others finite.
-           {"laurijssen_encode", broad, encode(laurijssen_encode), {2e-6, 3e-5}, lobes},
+           // Cancellation in float32 (see there), by the arc tangent's 4096 ulp that Vulkan allows: broad
+           // lobes only, and all others finite.
+           {"laurijssen_encode", broad, encode(laurijssen_encode), {2e-6, 1e-3}, lobes},
            {"laurijssen_decode", encoded_lobes(30), decode(laurijssen_decode), {2e-5, 1e-6}, encoded_lobes()},
-           {"lobe_encode_by", combinations({kinds, broad}), encode_by, {2e-6, 3e-5}},
+           {"lobe_encode_by", combinations({kinds, broad}), encode_by, {2e-6, 1e-3}},
            {"lobe_decode_by", combinations({kinds, encoded_lobes(30)}), decode_by, {2e-5, 1e-6}}}};
 }
 

@@ -59,7 +59,7 @@ LibraryFile vsgl_file() {
               const DiskCone c = disk_cone(d, a.take());
               return Values() << c.solid_angle << c.sharpness << c.density;
             },
-            {1e-6, 0}},
+            {2e-6, 0}},
            {"vsgl_incoming_disk",
             combinations({offsets(), lights}),
             incoming(vsgl_incoming_disk),

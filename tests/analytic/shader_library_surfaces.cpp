@@ -46,7 +46,7 @@ LibraryFile octahedral() {
            {"hemi_octahedral_decode",
             squares,
             [=](Arguments& a) { return Values() << hemi_octahedral_decode(square(a)); },
-            {0, 3e-7}},
+            {0, 1e-6}},
            {"hemi_octahedral_solid_angle",
             combinations({squares, numbers({16, 64})}),
             [=](Arguments& a) {
@@ -133,7 +133,7 @@ LibraryFile microfacet() {
             },
             {1e-4, 1e-30}},
            {"ggx_slope_cosine", slopes, two(ggx_slope_cosine), {1e-6, 0}},
-           {"ggx_lambda", slopes, two(ggx_lambda), {1e-6, 3e-7}},
+           {"ggx_lambda", slopes, two(ggx_lambda), {1e-6, 5e-7}},
            {"beckmann_lambda", slopes, two(beckmann_lambda), {1e-4, 1e-6}},
            {"smith_lambda",
             combinations({ndfs(), slopes}),

@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint FUNCTION = 0u;
+layout(constant_id = 100) const uint FUNCTION = 0u;
 layout(scalar, binding = 0) readonly buffer Arguments { float arguments[]; };
 layout(scalar, binding = 1) buffer Results { float results[]; };
 layout(push_constant) uniform Push {
@@ -22,6 +22,8 @@ void put(vec2 v) { put(v.x); put(v.y); }
 void put(vec3 v) { put(v.xy); put(v.z); }
 void put(uint x) { put(uintBitsToFloat(x)); }
 void put(int x) { put(intBitsToFloat(x)); }
+
+#include "test/library/rough.glsl"
 
 // Calls function FUNCTION.
 void call();

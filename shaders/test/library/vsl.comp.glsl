@@ -15,7 +15,12 @@ void call() {
     case 0u: put(disk_cone_height(take(), take())); break;
     case 1u: put(sphere_cone_height(take(), take())); break;
     case 2u: put(cone_direction(take3(), take(), take2())); break;
-    case 3u: put(microfacet_sin2(take_uint(), take(), take())); break;
+    case 3u: {
+      uint ndf = take_uint();
+      float alpha2 = take();
+      put(microfacet_sin2(ndf, alpha2, take()) / alpha2);
+      break;
+    }
     case 4u: put(scatter_direction(take_scatterer(), take2())); break;
     case 5u: put(scatter_pdf(take_scatterer(), take3())); break;
   }
