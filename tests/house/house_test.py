@@ -12,7 +12,7 @@ SOURCES = {".h", ".cpp", ".glsl", ".comp", ".vert", ".frag"}
 CITATION_KEY = r"[A-Z][A-Za-z]+ (?:19|20)\d\d[a-z]?"
 
 # Which rank a library has; it may include its own headers and those of lower ranks.
-RANKS = {"base": 0, "math": 1, "image": 2, "scene": 2, "gpu": 2, "pyramid": 3, "report": 3, "trace": 3, "kmeans": 4, "artifact": 4, "cluster": 5, "reference": 6, "pipeline": 7}
+RANKS = {"base": 0, "math": 1, "sh": 2, "image": 2, "scene": 2, "gpu": 2, "pyramid": 3, "report": 3, "trace": 3, "kmeans": 4, "artifact": 4, "cluster": 5, "reference": 6, "pipeline": 7}
 STAGE_RANK = 6
 
 
