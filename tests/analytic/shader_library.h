@@ -102,6 +102,8 @@ std::vector<LibraryFile> surface_files();
 std::vector<LibraryFile> light_files();
 std::vector<LibraryFile> sampling_files();
 std::vector<LibraryFile> vsl_files();
+// All of these.
+std::vector<LibraryFile> library_files();
 
 // Every combination of one row from each list, joined.
 std::vector<Row> combinations(std::initializer_list<std::vector<Row>> lists);
