@@ -27,4 +27,16 @@ void add_methods(CLI::App& app, const std::vector<Method>& registry, std::string
   app.add_flag_callback("--list-methods", print, "print the methods and exit")->configurable(false);
 }
 
+// Declares `flag`, one of a registry's rows, each of which its help explains.
+template <class Row>
+void add_choice(CLI::App& app, const std::string& flag, const std::vector<Row>& registry, std::string& choice,
+                std::string help) {
+  std::vector<std::string> names;
+  for (const Row& row : registry) {
+    help += (names.empty() ? ": " : "; ") + row.name + ": " + row.summary;
+    names.push_back(row.name);
+  }
+  app.add_option(flag, choice, help)->check(CLI::IsMember(names));
+}
+
 }  // namespace vsgl

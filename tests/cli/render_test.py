@@ -43,7 +43,7 @@ PIPELINES = {
     "fis-2014": {"rsm_bake": {"rsm_normals": "paper"}, "pdf_build": {"method": "brsm-vpl"}, "vsgl_gen": {"method": "fis-2014"},
                  "shade": {"light_model": "vsgl-2014", "cbr": 0}},
     "exact visibility": {"ismap": {"method": "raytraced"}},
-    "no shadows": {"ismap": None},
+    "no shadows": {"pdf_build": {"gbuffer_generation": "kmeans-3d"}, "ismap": None},
     "drawn": {"rsm_bake": {"visible": "raster"}},
 }
 ON_BOTH = ["default", "vsgl", "exact visibility", "drawn"]  # pipelines that run on both scenes; the others on the first

@@ -57,6 +57,12 @@ Pdf build_density(gpu::Device& device, const std::string& method) {
                    report);
 }
 
+Pdf build_density_by(gpu::Device& device, const std::string& generation) {
+  Report report;
+  return build_pdf(rsm(), &gbuffer(), {.gbuffer_lights = 128, .gbuffer_generation = generation}, device,
+                   report);
+}
+
 // Mean 1 over all layers, and positive wherever light is reflected: or else sampling would be biased.
 void check_pdf(gpu::Device&, const std::filesystem::path& path) {
   const Pdf pdf = read_pdf(path);
@@ -244,13 +250,13 @@ void check_image(gpu::Device&, const std::filesystem::path& path) {
 
 template <class Methods, class Make, class Check>
 void append(std::vector<Candidate>& list, const std::string& stage, const std::string& tool,
-            const Methods& methods, Make make, Check check) {
+            const Methods& methods, Make make, Check check, bool is_listed = true) {
   for (const auto& method : methods)
     list.push_back({stage, method.name, tool,
                     [=, name = method.name](gpu::Device& device, const std::filesystem::path& path) {
                       write(path, make(device, name), Provenance{});
                     },
-                    check});
+                    check, is_listed});
 }
 
 Indirect make_shadowed_image(gpu::Device& device, const std::string& method) {
@@ -269,6 +275,7 @@ const std::vector<Candidate>& candidates() {
   static const std::vector<Candidate> list = [] {
     std::vector<Candidate> out;
     append(out, "pdf", "pdf-build", pdf_methods(), build_density, check_pdf);
+    append(out, "gbuffer-lights", "pdf-build", gbuffer_generations(), build_density_by, check_pdf, false);
     append(out, "lights", "vsgl-gen", lights_methods(), sample_lights, check_lights);
     for (const auto& method : visibility_methods())
       append(out, "visibility", "ismap", std::vector{method}, some_visibility, check_visibility(method.name));
@@ -280,6 +287,9 @@ const std::vector<Candidate>& candidates() {
 
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list = {
+      {"pdf", [](gpu::Device& device, const std::string& method) { build_density(device, method); }},
+      {"gbuffer-lights",
+       [](gpu::Device& device, const std::string& method) { build_density_by(device, method); }},
       {"lights", [](gpu::Device& device, const std::string& method) { sample_lights(device, method); }},
       {"visibility", [](gpu::Device& device, const std::string& method) { some_visibility(device, method); }},
       {"shading",

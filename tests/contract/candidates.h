@@ -15,11 +15,12 @@ namespace vsgl::test {
 
 struct Candidate {
   std::string stage, method;
-  std::string tool;  // the executable that offers it
+  std::string tool;  // the executable that offers it, by --list-methods; or by --help alone
   // Runs the method on `device` and writes its artifact.
   std::function<void(gpu::Device& device, const std::filesystem::path& path)> run;
   // Reads the artifact with its validating reader and judges it: throws or records a test failure.
   std::function<void(gpu::Device& device, const std::filesystem::path& path)> check;
+  bool is_listed = true;
 };
 
 // One row per registry row, in the stages' order.

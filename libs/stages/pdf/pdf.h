@@ -13,10 +13,11 @@
 namespace vsgl {
 
 struct PdfParams {
-  std::string method = "brsm-vsgl";  // one of pdf_methods()
-  int gbuffer_lights = 2048;         // brsm-vsgl: lights on the G-buffer, 1..1048576
-  int view_samples = 256;            // brsm-vpl: pixels that each texel is tried on, 1..1048576
-  double defensive = 0.1;            // brsm: share of the flux density in the mixture, 0..1
+  std::string method = "brsm-vsgl";             // one of pdf_methods()
+  int gbuffer_lights = 2048;                    // brsm-vsgl: lights on the G-buffer, 1..1048576
+  std::string gbuffer_generation = "fis-2016";  // brsm-vsgl: one of gbuffer_generations()
+  int view_samples = 256;                       // brsm-vpl: pixels that each texel is tried on, 1..1048576
+  double defensive = 0.1;                       // brsm: share of the flux density in the mixture, 0..1
   std::uint64_t seed = 0;
   bool skip = true;  // leave out specular lobes that nothing has
 };
@@ -40,5 +41,16 @@ struct PdfMethod {
   TexelValues (*run)(const Rsm&, const GBuffer*, const PdfParams&, gpu::Device&, Report&);
 };
 const std::vector<PdfMethod>& pdf_methods();
+
+// How brsm-vsgl makes the lights on the G-buffer: as vsgl-gen's method of that name those on the RSM.
+struct GbufferGeneration {
+  std::string name;
+  std::string summary;
+  bool is_clustering;  // of pixels about centres; else kernels are filtered
+  std::uint32_t kind;  // KMEANS_* of clusters, KERNEL_* of kernels
+};
+const std::vector<GbufferGeneration>& gbuffer_generations();
+// The row of that name. Throws bad_value, listing those that are there.
+const GbufferGeneration& gbuffer_generation(const std::string& name);
 
 }  // namespace vsgl

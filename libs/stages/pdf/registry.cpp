@@ -22,6 +22,7 @@ void check_params(const PdfParams& params) {
   if (!(params.defensive >= 0 && params.defensive <= 1))
     throw Error(ErrorCode::out_of_range,
                 "defensive: " + std::to_string(params.defensive) + " is outside 0..1");
+  gbuffer_generation(params.gbuffer_generation);
 }
 
 void check_gbuffer(const PdfMethod& method, const Rsm& rsm, const GBuffer* gbuffer) {

@@ -4,26 +4,11 @@
 
 namespace vsgl {
 
-namespace {
-
-void add_specular_lobes(CLI::App& app, std::string& lobe) {
-  std::string help = "how a pixel's specular lobe meets a light's";
-  std::vector<std::string> names;
-  for (const SpecularLobe& row : specular_lobes()) {
-    help += (names.empty() ? ": " : "; ") + row.name + ": " + row.summary;
-    names.push_back(row.name);
-  }
-  app.add_option("--specular-lobe", lobe, help)->check(CLI::IsMember(names));
-}
-
-}  // namespace
-
 void add_options(CLI::App& app, ShadingParams& params) {
   add_methods(app, light_models(), params.light_model, "how a light is evaluated", "--light-model");
-  app.add_option(
-         "--schedule", params.schedule,
-         "which lights a pixel sums: flat: all; interleave: a share, the others from its neighbours; "
-         "cut: those of its tile's cut through a light tree; auto: cut for trees, else flat")
+  app.add_option("--schedule", params.schedule,
+                 "which lights a pixel sums: flat: all; interleave: a share, the others from its neighbours; "
+                 "cut: those of its tile's cut through a light tree; auto: cut for trees, else flat")
       ->check(CLI::IsMember({"auto", "flat", "interleave", "cut"}));
   app.add_option("--interleave", params.interleave,
                  "interleave: pixels a side of the square that shares the lights; 1: as flat")
@@ -31,7 +16,8 @@ void add_options(CLI::App& app, ShadingParams& params) {
   app.add_option("--clamp", params.clamp,
                  "vpl: smallest distance, as a fraction of the scene's radius; 0: none")
       ->check(CLI::Range(0.0, 1.0));
-  add_specular_lobes(app, params.specular_lobe);
+  add_choice(app, "--specular-lobe", specular_lobes(), params.specular_lobe,
+             "how a pixel's specular lobe meets a light's");
   app.add_option("--cbr", params.cbr, "consistent bias reduction: threshold of the sharpness ratio; 0: off")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--vsl-samples", params.vsl_samples,

@@ -8,6 +8,8 @@
 #include "../expect_error.h"
 #include "../synthetic_room.h"
 #include "math/light_source.h"
+#include "math/sg.h"
+#include "stages/pdf/importons.h"
 #include "stages/pdf/methods.h"
 
 namespace vsgl {
@@ -208,11 +210,112 @@ TEST(Pdf, ImportanceFollowsTheExactContributions) {
   PdfParams by_vpl = params_of("brsm-vpl"), by_vsgl = params_of("brsm-vsgl");
   by_vpl.defensive = by_vsgl.defensive = 0;
   by_vsgl.gbuffer_lights = 1024;
-  EXPECT_LT(distance(by_vsgl), 0.15);
+  for (const GbufferGeneration& generation : gbuffer_generations()) {
+    by_vsgl.gbuffer_generation = generation.name;
+    EXPECT_LT(distance(by_vsgl), 0.15) << generation.name;
+  }
   EXPECT_LT(distance(by_vpl), 0.2);
   by_vpl.view_samples = 20000;  // every pixel several times
   EXPECT_LT(distance(by_vpl), 0.02);
   EXPECT_GT(distance(params_of("uniform")), 0.25);
+}
+
+// --- lights on the G-buffer, by each generation ---
+
+std::vector<interop::Importon> importons_of(const GBuffer& gbuffer, const std::string& generation,
+                                            int lights) {
+  Report report;
+  return make_importons(gbuffer, {.gbuffer_lights = lights, .gbuffer_generation = generation}, device(),
+                        report);
+}
+
+Vec3 power_of(const interop::Importon& importon) {
+  return to_double(importon.diffuse_peak) * sg_integral(importon.diffuse_sharpness) +
+         to_double(importon.specular_peak) * sg_integral(importon.specular_sharpness);
+}
+
+Vec3 reflectance(const Surface& pixel) {
+  return to_double(pixel.diffuse) + to_double(pixel.specular);
+}
+
+// Power of the lights over what all pixels reflect.
+double power_ratio(const GBuffer& gbuffer, const std::vector<interop::Importon>& importons) {
+  double emitted = 0, reflected = 0;
+  for (const interop::Importon& importon : importons) emitted += luminance(power_of(importon));
+  for (const Surface& pixel : gbuffer.pixels) reflected += luminance(reflectance(pixel));
+  return emitted / reflected;
+}
+
+TEST(GbufferLights, ClustersKeepThePowerOfTheImage) {
+  const GBuffer gbuffer = test::room_gbuffer(64, 36);
+  for (const char* generation : {"kmeans-2d", "kmeans-3d"})
+    for (const int lights : {1, 100, 5000})
+      EXPECT_NEAR(power_ratio(gbuffer, importons_of(gbuffer, generation, lights)), 1, 1e-5)
+          << generation << " " << lights;
+}
+
+// Where all pixels reflect alike each kernel is right by any rule.
+TEST(GbufferLights, KernelsKeepThePowerOfAnEvenImage) {
+  GBuffer gbuffer = test::room_gbuffer(64, 64);
+  for (Surface& pixel : gbuffer.pixels) {
+    pixel.diffuse = {0.5f, 0.4f, 0.3f};
+    pixel.specular = {};
+    pixel.ndf = interop::NDF_NONE;
+  }
+  for (const GbufferGeneration& generation : gbuffer_generations())
+    EXPECT_NEAR(power_ratio(gbuffer, importons_of(gbuffer, generation.name, 64)), 1, 1e-5) << generation.name;
+}
+
+// As many samples that each pixel is a cluster of its own: the lights are the pixels.
+TEST(GbufferLights, ArePixelsWhereEachIsACluster) {
+  const GBuffer gbuffer = test::room_gbuffer(16, 16);
+  for (const char* generation : {"kmeans-2d", "kmeans-3d"}) {
+    const auto importons = importons_of(gbuffer, generation, 16384);
+    ASSERT_EQ(importons.size(), gbuffer.pixels.size()) << generation;
+    for (const Surface& pixel : gbuffer.pixels) {
+      const auto distance = [&](const interop::Importon& i) {
+        return length(to_double(i.position) - to_double(pixel.position));
+      };
+      const interop::Importon& importon = *std::ranges::min_element(importons, {}, distance);
+      EXPECT_LT(distance(importon), 1e-5);
+      EXPECT_LT(length(power_of(importon) - reflectance(pixel)), 1e-5);
+      EXPECT_LT(length(to_double(importon.diffuse_axis) - to_double(pixel.normal)), 1e-5);
+      EXPECT_NEAR(importon.diffuse_sharpness, interop::LAMBDA_DIFFUSE, 1e-4);
+    }
+  }
+}
+
+// Mean variance of the lights' footprints, weighted by power.
+double mean_variance(const std::vector<interop::Importon>& importons) {
+  double sum = 0, power = 0;
+  for (const interop::Importon& importon : importons) {
+    sum += luminance(power_of(importon)) * static_cast<double>(importon.variance);
+    power += luminance(power_of(importon));
+  }
+  return sum / power;
+}
+
+// Clusters in the scene do not reach from the sphere to the wall behind it.
+TEST(GbufferLights, ClustersInTheSceneAreSmallest) {
+  const GBuffer gbuffer = test::room_gbuffer(64, 64);
+  const double in_scene = mean_variance(importons_of(gbuffer, "kmeans-3d", 256));
+  for (const char* generation : {"fis-2014", "fis-2016", "kmeans-2d"})
+    EXPECT_LT(1.3 * in_scene, mean_variance(importons_of(gbuffer, generation, 256))) << generation;
+}
+
+// [Tokuyoshi 2016, Fig. 1] Sized by the density at their centres, kernels about dark pixels among bright ones
+// are too large.
+TEST(GbufferLights, EqualSharesLeaveNoKernelTooLarge) {
+  GBuffer gbuffer = test::room_gbuffer(64, 64);
+  for (std::size_t i = 0; i < gbuffer.pixels.size(); i += 17)
+    gbuffer.pixels[i].diffuse = {0.01f, 0.01f, 0.01f};
+  const auto brightest = [&](const char* generation) {
+    double most = 0;
+    for (const interop::Importon& importon : importons_of(gbuffer, generation, 1024))
+      most = std::max(most, luminance(power_of(importon)));
+    return most;
+  };
+  EXPECT_GT(brightest("fis-2014"), 1.5 * brightest("fis-2016"));
 }
 
 // Four pixels a cell give the importance of one pixel in their place.
@@ -297,6 +400,8 @@ TEST(Pdf, RejectsWhatItCannotUse) {
   expect_error(ErrorCode::out_of_range, {"view_samples"},
                attempt(&gbuffer, [](auto& p) { p.view_samples = 1 << 21; }));
   expect_error(ErrorCode::out_of_range, {"defensive"}, attempt(&gbuffer, [](auto& p) { p.defensive = 1.5; }));
+  expect_error(ErrorCode::bad_value, {"gbuffer_generation", "kmeans-3d"},
+               attempt(&gbuffer, [](auto& p) { p.gbuffer_generation = "kmeans"; }));
   expect_error(ErrorCode::missing_option, {"G-buffer"}, attempt(nullptr, [](auto&) {}));
   gbuffer.anchor = {1, 0, 0};
   expect_error(ErrorCode::invalid_data, {"anchor"}, attempt(&gbuffer, [](auto&) {}));
