@@ -100,4 +100,18 @@ class SpecularReference {
   std::vector<Sample> samples_;
 };
 
+// Lights of `sharpness` up to 4 combined lobe widths off the mirror direction of a lobe of sharpness `lobe`, in
+// the plane of incidence (x, z), across it and between.
+inline std::vector<Vec3> offset_axes(Vec3 mirror, double lobe, double sharpness) {
+  const double width = std::min(std::sqrt(1 / std::max(sharpness, 0.5) + 1 / std::max(lobe, 0.5)), 1.0);
+  std::vector<Vec3> axes{mirror};
+  const Vec3 across{0, 1, 0}, within = cross(mirror, across);
+  for (const double offset : {0.5, 1.0, 2.0, 4.0}) {
+    const double angle = std::min(offset * width, 0.75 * pi);
+    for (const Vec3 side : {within, -within, across, normalise(within + across)})
+      axes.push_back(std::cos(angle) * mirror + std::sin(angle) * side);
+  }
+  return axes;
+}
+
 }  // namespace vsgl::test

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <random>
 #include <vector>
 
+#include "math/mixture_lobe.h"
 #include "math/reflected_lobe.h"
 #include "quadrature.h"
 
@@ -22,19 +24,6 @@ struct Case {
   double peak;  // of the exact values over the offsets
 };
 
-// Lights up to 4 combined lobe widths off the mirror direction, in the plane of incidence, across it and
-// between.
-std::vector<Vec3> offset_axes(Vec3 mirror, double width) {
-  std::vector<Vec3> axes{mirror};
-  const Vec3 across{0, 1, 0}, within = cross(mirror, across);
-  for (const double offset : {0.5, 1.0, 2.0, 4.0}) {
-    const double angle = std::min(offset * width, 0.75 * pi);
-    for (const Vec3 side : {within, -within, across, normalise(within + across)})
-      axes.push_back(std::cos(angle) * mirror + std::sin(angle) * side);
-  }
-  return axes;
-}
-
 std::vector<Case> cases(std::uint32_t ndf, const std::vector<double>& alphas,
                         const std::vector<double>& degrees, const std::vector<double>& sharpnesses) {
   std::vector<Case> all;
@@ -45,10 +34,9 @@ std::vector<Case> cases(std::uint32_t ndf, const std::vector<double>& alphas,
       const test::SpecularReference reference(ndf, alpha, view);
       const double lobe = receiver.across * receiver.cos_view;
       for (const double sharpness : sharpnesses) {
-        const double width = std::min(std::sqrt(1 / std::max(sharpness, 0.5) + 1 / std::max(lobe, 0.5)), 1.0);
         std::vector<Case> group;
         double peak = 0;
-        for (const Vec3 axis : offset_axes({-view.x, 0, view.z}, width)) {
+        for (const Vec3 axis : test::offset_axes({-view.x, 0, view.z}, lobe, sharpness)) {
           group.push_back({receiver, axis, sharpness, reference.integral(axis, sharpness), 0});
           peak = std::max(peak, group.back().exact);
         }
@@ -93,8 +81,9 @@ struct Form {
   Method method;
 };
 const std::vector<Form> forms{
-    {"auto", specular_vmf},    {"ndf-filter", specular_vmf_ndf_filter}, {"sg", specular_vmf_sg},
-    {"asg", specular_vmf_asg}, {"asg-asg", specular_vmf_asg_asg},       {"asg as printed", asg_as_printed}};
+    {"mixture", specular_vmf_mixture}, {"blend", specular_vmf_blend}, {"ndf-filter", specular_vmf_ndf_filter},
+    {"sg", specular_vmf_sg},           {"asg", specular_vmf_asg},     {"asg-asg", specular_vmf_asg_asg},
+    {"asg as printed", asg_as_printed}};
 
 // The table of docs/shading.md: each form over the whole grid and over slices of it.
 void print_table(const char* ndf, const std::vector<Case>& all) {
@@ -131,6 +120,9 @@ TEST(SpecularLobe, GgxMatchesQuadrature) {
   const Errors blend = errors(all, specular_vmf_ggx), filtered = errors(all, specular_vmf_filtered);
   const Errors sg = errors(all, specular_vmf_sg), asg = errors(all, specular_vmf_asg);
   const Errors both = errors(all, specular_vmf_asg_asg), printed = errors(all, asg_as_printed);
+  const Errors mixture = errors(all, specular_vmf_mixture);
+  EXPECT_LT(mixture.median, 0.012);
+  EXPECT_LT(mixture.absolute, 0.028);
   EXPECT_LT(blend.median, 0.08);
   EXPECT_LT(blend.absolute, 0.07);
   EXPECT_LT(filtered.median, 0.12);
@@ -146,8 +138,11 @@ TEST(SpecularLobe, BeckmannAndPhongMatchQuadrature) {
     const std::vector<Case> all =
         cases(ndf, {0.01, 0.1, 0.2, 0.5, 0.8}, {0, 30, 60, 85}, {0, 1, 16, 100, 1e4, 1e6});
     print_table(ndf == NDF_BECKMANN ? "Beckmann" : "Phong", all);
-    const Errors gaussian = errors(all, specular_vmf), filtered = errors(all, specular_vmf_filtered);
+    const Errors gaussian = errors(all, specular_vmf_blend), filtered = errors(all, specular_vmf_filtered);
     const Errors projected = errors(all, specular_vmf_ndf_filter);
+    const Errors mixture = errors(all, specular_vmf_mixture);
+    EXPECT_LT(mixture.median, 0.005);
+    EXPECT_LT(mixture.absolute, 0.04);
     EXPECT_LT(gaussian.median, 0.035);
     EXPECT_LT(gaussian.absolute, 0.075);
     EXPECT_LT(gaussian.absolute, filtered.absolute);
@@ -158,14 +153,56 @@ TEST(SpecularLobe, BeckmannAndPhongMatchQuadrature) {
   }
 }
 
+// Random surfaces, views and lights, none of which the constants were chosen by.
+std::vector<Case> random_cases(std::uint32_t ndf, int groups) {
+  std::mt19937_64 generator(ndf);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(generator() >> 11) * 0x1p-53);
+  };
+  std::vector<Case> all;
+  for (int i = 0; i < groups; ++i) {
+    const double alpha = std::pow(10, uniform(-3, 0)), angle = uniform(0, 89) * pi / 180;
+    const double sharpness = std::pow(10, uniform(-1, 6));
+    const Vec3 view{std::sin(angle), 0, std::cos(angle)}, mirror{-view.x, 0, view.z}, across{0, 1, 0};
+    const SpecularReceiver receiver = specular_receiver(ndf, alpha, {0, 0, 1}, view);
+    const test::SpecularReference reference(ndf, alpha, view);
+    const double lobe = receiver.across * receiver.cos_view;
+    const double width = std::min(std::sqrt(1 / std::max(sharpness, 0.5) + 1 / std::max(lobe, 0.5)), 1.0);
+    std::vector<Case> group;
+    double peak = 0;
+    for (int k = 0; k < 9; ++k) {
+      const double offset = std::min(uniform(0, 4) * width, 0.75 * pi), side = uniform(0, 2 * pi);
+      const Vec3 axis = std::cos(offset) * mirror +
+                        std::sin(offset) * (std::cos(side) * cross(mirror, across) + std::sin(side) * across);
+      group.push_back({receiver, axis, sharpness, reference.integral(axis, sharpness), 0});
+      peak = std::max(peak, group.back().exact);
+    }
+    for (Case& c : group) {
+      c.peak = peak;
+      if (c.exact > 0.01 * peak) all.push_back(c);
+    }
+  }
+  return all;
+}
+
+TEST(SpecularLobe, MixtureIsSeveralTimesAsAccurateAsTheBlendOnRandomCases) {
+  for (const std::uint32_t ndf : {NDF_GGX, NDF_BECKMANN, NDF_PHONG}) {
+    const std::vector<Case> all = random_cases(ndf, 150);
+    const Errors mixture = errors(all, specular_vmf_mixture), blend = errors(all, specular_vmf_blend);
+    EXPECT_LT(mixture.absolute, 0.02) << ndf;
+    EXPECT_LT(mixture.median, 0.015) << ndf;
+    EXPECT_LT(mixture.absolute, 0.5 * blend.absolute) << ndf;
+  }
+}
+
 // Sharp lights on a surface seen at a grazing angle: the reflected lobe is far from round.
 TEST(SpecularLobe, IsElongatedAtGrazingAngles) {
   for (const std::uint32_t ndf : {NDF_BECKMANN, NDF_PHONG}) {
     std::vector<Case> all = cases(ndf, {0.03, 0.1}, {80, 85}, {1e3, 1e4});
     const double round = errors(all, specular_vmf_sg).median;
     EXPECT_GT(round, 0.1);
-    for (const Method method :
-         {specular_vmf_asg, specular_vmf_asg_asg, specular_vmf_ndf_filter, specular_vmf})
+    for (const Method method : {specular_vmf_asg, specular_vmf_asg_asg, specular_vmf_ndf_filter,
+                                specular_vmf_blend, specular_vmf_mixture})
       EXPECT_LT(errors(all, method).median, 0.5 * round);
   }
 }
@@ -208,7 +245,8 @@ TEST(SpecularLobe, TendsToTheBrdfAsTheLightSharpens) {
       const Vec3 mirror = specular_lobe(ndf, alpha, n, view).axis;
       for (const Vec3 offset : {Vec3{}, Vec3{0.02, 0.03, 0}, Vec3{-0.2, 0.3, 0.1}}) {
         const Vec3 light = normalise(mirror + alpha * offset);
-        EXPECT_NEAR(specular_vmf(r, light, 1e10) / specular_brdf_cos(ndf, alpha, n, view, light), 1, 2e-3);
+        for (const Method method : {specular_vmf_blend, specular_vmf_mixture})
+          EXPECT_NEAR(method(r, light, 1e10) / specular_brdf_cos(ndf, alpha, n, view, light), 1, 2e-3);
       }
     }
 }
@@ -220,8 +258,9 @@ TEST(SpecularLobe, IsFiniteForDegenerateInput) {
            {Vec3{0, 0, 1}, normalise(Vec3{1, 0, 1e-4}), normalise(Vec3{1, 0, -0.1}), Vec3{0, 0, -1}})
         for (const double sharpness : {0.0, 1e-9, 1.0, 1e6, sharpness_max})
           for (const Vec3 axis : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, -view})
-            for (const Method method : {specular_vmf, specular_vmf_filtered, specular_vmf_ndf_filter,
-                                        specular_vmf_sg, specular_vmf_asg, specular_vmf_asg_asg}) {
+            for (const Method method :
+                 {specular_vmf_mixture, specular_vmf_blend, specular_vmf_filtered, specular_vmf_ndf_filter,
+                  specular_vmf_sg, specular_vmf_asg, specular_vmf_asg_asg}) {
               const double value = method(specular_receiver(ndf, alpha, {0, 0, 1}, view), axis, sharpness);
               EXPECT_TRUE(std::isfinite(value) && value >= 0) << ndf << " " << alpha << " " << sharpness;
             }
