@@ -74,9 +74,19 @@ def between(first, second, time):
     return first.error + share * (second.error - first.error)
 
 
-def after(curve, time):
-    """(error, how it was found) of a variant after that time. The error is None where no image comes near enough: curves are not
-    continued beyond their ends."""
+def front(found):
+    """Of images by rising time those that err less than all before them."""
+    kept = []
+    for image in found:
+        if not kept or image.error < kept[-1].error:
+            kept.append(image)
+    return kept
+
+
+def after(found, time):
+    """(error, how it was found) of a variant, whose images these are, after that time: on the line through those that err less than all
+    cheaper ones. The error is None where none comes near enough: the line is not continued beyond its ends."""
+    curve = front(found)
     if not curve:
         return None, "no image with this metric"
     later = next((i for i, image in enumerate(curve) if image.time >= time), len(curve))

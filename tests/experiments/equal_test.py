@@ -123,6 +123,11 @@ class EqualTime(unittest.TestCase):
     def test_equal_times(self):
         self.assertEqual(between(Image("a", 1, 2, 0.4), Image("b", 2, 2, 0.1), 2), 0.1)
 
+    def test_images_that_cheaper_ones_beat(self):
+        curve = [Image("a", 1, 1, 0.9), Image("b", 2, 2, 1.5), Image("c", 3, 4, 0.1), Image("d", 4, 4.1, 0.2)]
+        self.assertAlmostEqual(after(curve, 2)[0], 0.3)
+        self.assertEqual(after(curve, 4.1), (0.1, "c, 0.98 of the time"))
+
 
 class Tables(unittest.TestCase):
     def test_a_scene_without_the_metric_has_none(self):
