@@ -15,7 +15,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
 
 from chain import StageFailed  # noqa: E402
-from sequence import Sequence, luminance, relative_steps  # noqa: E402
+from paper_pictures import exposure, srgb  # noqa: E402
+from sequence import Sequence, relative_steps  # noqa: E402
 
 DEFAULT = pathlib.Path(__file__).resolve().parents[1] / "sequences" / "flicker.json"
 TRUTH, LIMIT = "reference", "limit"
@@ -49,27 +50,23 @@ def measure(sequence, variants):
     return found
 
 
-def displayed(image, exposure):
-    return numpy.clip(image * exposure, 0, 1) ** (1 / 2.2)
-
-
 def draw(sequence, row, variants, target):
     """A column a method: its first frame, the image row marked there over time (downwards), how much its error changes from a
     frame to the next along that row, and the largest such change of each pixel."""
     truth = sequence.load(LIMIT)
     columns = {TRUTH: sequence.load(TRUTH), **{label: sequence.load(label) for label in variants}}
-    exposure = 0.8 / numpy.percentile(luminance(truth)[luminance(truth) > 0], 97)
+    scale = exposure(truth)
     y = round(row * (truth.shape[1] - 1))
     figure, axes = plt.subplots(4, len(columns), figsize=(2.2 * len(columns), 8.4), layout="constrained")
-    scale = matplotlib.colors.LogNorm(0.002, 0.5)
+    changes = matplotlib.colors.LogNorm(0.002, 0.5)
     for (label, images), column in zip(columns.items(), axes.T):
         steps = numpy.abs(relative_steps(images, truth))
-        column[0].imshow(displayed(images[0], exposure))
+        column[0].imshow(srgb(scale * images[0]))
         column[0].axhline(y, color="white", linewidth=0.6)
         column[0].set_title(label, fontsize=9)
-        column[1].imshow(displayed(images[:, y], exposure), interpolation="nearest", aspect="auto")
-        column[2].imshow(steps[:, y] + 1e-9, norm=scale, cmap="magma", interpolation="nearest", aspect="auto")
-        shown = column[3].imshow(steps.max(axis=0) + 1e-9, norm=scale, cmap="magma", interpolation="nearest")
+        column[1].imshow(srgb(scale * images[:, y]), interpolation="nearest", aspect="auto")
+        column[2].imshow(steps[:, y] + 1e-9, norm=changes, cmap="magma", interpolation="nearest", aspect="auto")
+        shown = column[3].imshow(steps.max(axis=0) + 1e-9, norm=changes, cmap="magma", interpolation="nearest")
         for cell in column:
             cell.set(xticks=[], yticks=[])
     for cell, text in zip(axes[:, 0], ["first frame", "row over time", "change of its error", "largest change"]):

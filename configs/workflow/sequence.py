@@ -4,14 +4,11 @@ arrays."""
 import json
 import pathlib
 import subprocess
-import tempfile
 
-import PIL.Image
 import numpy
 
+import exr
 from chain import Chain, StageFailed
-
-LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722])  # of linear Rec.709
 
 
 class Sequence:
@@ -77,29 +74,13 @@ class Sequence:
 
     def load(self, label):
         """The layer `indirect` of all frames: [frame, row, column, channel], float64."""
-        command = ["oiiotool", "--nosoftwareattrib"]
-        for frame in range(self.frames):
-            for channel in "RGB":
-                command += [self.file(label, frame), "--ch", f"indirect.{channel}"]
-        with tempfile.TemporaryDirectory() as folder:
-            target = pathlib.Path(folder) / "frames.tif"  # of one channel, one picture below the other
-            done = subprocess.run([*command, "--mosaic", f"1x{3 * self.frames}", "-d", "float", "-o", target],
-                                  capture_output=True, text=True, check=False)
-            if done.returncode != 0:
-                raise StageFailed(f"{self.files(label)}: {done.stderr}")
-            with PIL.Image.open(target) as picture:
-                rows = numpy.asarray(picture, dtype=numpy.float64)
-        return rows.reshape(self.frames, 3, -1, rows.shape[1]).transpose(0, 2, 3, 1)
-
-
-def luminance(images):
-    return images @ LUMINANCE
+        return numpy.stack([exr.colour(self.file(label, frame)) for frame in range(self.frames)])
 
 
 def relative_steps(test, truth):
     """How much the error of each pixel changes from a frame to the next, relative to its luminance as compare's `pops` counts it:
     [frame - 1, row, column]. Both as load() gives them."""
-    reference = luminance(truth)
+    reference = truth @ exr.LUMINANCE
     seen = reference.max(axis=0) > 0
     floor = 0.05 * reference[:, seen].mean()
-    return numpy.diff(luminance(test) - reference, axis=0) / (reference[1:] + floor)
+    return numpy.diff(test @ exr.LUMINANCE - reference, axis=0) / (reference[1:] + floor)
