@@ -272,8 +272,8 @@ class Methods(unittest.TestCase):
 
     # What its scenes have no light for, and what only stands for another one.
     ABSENT = {"environment", "auto", "flat", "cut"}
-    CHOICES = [("pdf_build", "method"), ("vsgl_gen", "method"), ("vsgl_gen", "lobe_filter"), ("ismap", "method"), ("shade", "light_model"),
-               ("shade", "schedule"), ("shade", "specular_lobe")]
+    CHOICES = [("pdf_build", "method"), ("pdf_build", "gbuffer_generation"), ("vsgl_gen", "method"), ("vsgl_gen", "lobe_filter"),
+               ("ismap", "method"), ("shade", "light_model"), ("shade", "schedule"), ("shade", "specular_lobe")]
 
     def test_all_are_there(self):
         path = ROOT / "configs" / "experiments" / "error-vs-time.json"
