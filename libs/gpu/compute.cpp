@@ -19,13 +19,28 @@ VkDescriptorType descriptor_type(Binding binding) {
       return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case Binding::texel_rgba32f:
     case Binding::texel_r32ui:
+    case Binding::texel_rgba32ui:
       return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
   }
   throw Error(ErrorCode::internal, "unknown buffer binding");
 }
 
-bool is_texel(Binding binding) {
-  return binding == Binding::texel_rgba32f || binding == Binding::texel_r32ui;
+// Of a texel buffer; no bytes: the binding is none.
+struct TexelFormat {
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  std::size_t bytes = 0;
+};
+TexelFormat texel_format(Binding binding) {
+  switch (binding) {
+    case Binding::texel_rgba32f:
+      return {VK_FORMAT_R32G32B32A32_SFLOAT, 16};
+    case Binding::texel_r32ui:
+      return {VK_FORMAT_R32_UINT, 4};
+    case Binding::texel_rgba32ui:
+      return {VK_FORMAT_R32G32B32A32_UINT, 16};
+    default:
+      return {};
+  }
 }
 
 // Largest range of a buffer that a binding may see, bytes.
@@ -36,12 +51,9 @@ std::size_t range_limit(const Device& device, Binding binding) {
       return limits.maxStorageBufferRange;
     case Binding::uniform:
       return limits.maxUniformBufferRange;
-    case Binding::texel_rgba32f:
-      return std::size_t{16} * limits.maxTexelBufferElements;
-    case Binding::texel_r32ui:
-      return std::size_t{4} * limits.maxTexelBufferElements;
+    default:
+      return texel_format(binding).bytes * limits.maxTexelBufferElements;
   }
-  throw Error(ErrorCode::internal, "unknown buffer binding");
 }
 
 }  // namespace
@@ -229,10 +241,10 @@ void Commands::Impl::release() {
 VkBufferView Commands::Impl::make_view(Binding binding, const BufferRange& range, std::size_t bytes) {
   auto info = vk_struct<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
   info.buffer = range.buffer->handle();
-  info.format = binding == Binding::texel_rgba32f ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_UINT;
+  const TexelFormat texel = texel_format(binding);
+  info.format = texel.format;
   info.offset = range.offset;
-  const std::size_t texel = binding == Binding::texel_rgba32f ? 16 : 4;
-  info.range = bytes / texel * texel;
+  info.range = bytes / texel.bytes * texel.bytes;
   VkBufferView view = VK_NULL_HANDLE;
   check(vkCreateBufferView(device.handle(), &info, nullptr, &view), "vkCreateBufferView");
   views.push_back(view);
@@ -264,7 +276,7 @@ void Commands::Impl::bind(VkCommandBuffer commands, const ComputePipeline::Impl&
                                                "; ask for smaller images or fewer lights");
     }
     infos[i] = {range.buffer->handle(), range.offset, bytes};
-    if (is_texel(binding)) texel_views[i] = make_view(binding, range, bytes);
+    if (texel_format(binding).bytes > 0) texel_views[i] = make_view(binding, range, bytes);
     writes[i] = vk_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     writes[i].dstBinding = static_cast<std::uint32_t>(i);
     writes[i].descriptorCount = 1;

@@ -16,8 +16,8 @@
 namespace vsgl::gpu {
 
 // How a shader sees a buffer: `buffer` blocks, `uniform` blocks, `uniform samplerBuffer` (RGBA32F) or
-// `usamplerBuffer` (R32UI).
-enum class Binding { storage, uniform, texel_rgba32f, texel_r32ui };
+// `usamplerBuffer` (R32UI, RGBA32UI).
+enum class Binding { storage, uniform, texel_rgba32f, texel_r32ui, texel_rgba32ui };
 
 using SpecializationConstants =
     std::map<std::uint32_t, std::uint32_t>;  // constant_id -> 32-bit value (bit-cast floats)

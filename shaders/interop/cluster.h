@@ -34,6 +34,8 @@ VSGL_CHECK_SIZE(Cluster, 112)
 VSGL_CONST float CLUSTER_FLAT = 200.0f;
 // From this squared distance on, in units of sigma^2, a cluster lights a diffuse receiver like a point.
 VSGL_CONST float CLUSTER_POINT = 100.0f;
+// From this one on its footprint is so narrow that none of it is behind the receiver.
+VSGL_CONST float CLUSTER_MIDDLE = 16.0f;
 // A specular receiver besides asks for this multiple of its lobe's sharpness (across the plane of incidence).
 VSGL_CONST float CLUSTER_POINT_SPECULAR = 5.0f;
 

@@ -14,16 +14,16 @@ struct CutBlock {
   uint receivers;  // how many, 1..CUT_BLOCK
   uint plain;      // first item: far from all receivers, of parallel normals, without specular emission
   uint glossy;     // from here on: the same with specular emission
-  uint near;       // from here on: near, of parallel normals
-  uint general;    // from here on: all others
+  uint middle;     // from here on: narrow footprints (CLUSTER_MIDDLE), for diffuse receivers
+  uint near;       // from here on: all others
   uint end;
 };
 VSGL_CHECK_SIZE(CutBlock, 28)
 
-// An item of a list: index of the cluster, and where visibility is known two words: bit k % 32 of word k / 32
-// is set where receiver k of the block sees it.
+// An item of a list: index of the cluster, and where visibility is known a mask of two words: bit k % 32 of word
+// k / 32 is set where receiver k of the block sees it. Words of each, a texel.
 VSGL_CONST uint CUT_ITEM = 1u;
-VSGL_CONST uint CUT_MASKED_ITEM = 3u;
+VSGL_CONST uint CUT_MASKED_ITEM = 4u;
 
 // Texels (vec4) of a Cluster.
 VSGL_CONST uint CLUSTER_TEXELS = 7u;
@@ -40,7 +40,7 @@ struct CutPush {
 };
 VSGL_CHECK_SIZE(CutPush, 12)
 
-// Specialisation constants besides those of interop/shading.h (receiver, emission, bumped, asg, pixels).
+// Specialisation constants besides those of interop/shading.h (receiver, emission, bumped, pixels).
 VSGL_CONST uint CUT_LANES_ID = 7u;   // invocations of a group, a divisor of 32
 VSGL_CONST uint CUT_MASKED_ID = 8u;  // 1: items have masks
 

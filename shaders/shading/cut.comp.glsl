@@ -30,10 +30,8 @@ struct Item {
 };
 
 Item load_item(uint i) {
-  if (MASKED == 0) return Item(texelFetch(items, int(i)).x, uvec2(0));
-  int first = int(CUT_MASKED_ITEM * i);
-  uvec2 mask = uvec2(texelFetch(items, first + 1).x, texelFetch(items, first + 2).x);
-  return Item(texelFetch(items, first).x, mask >> gl_LocalInvocationIndex);
+  uvec4 texel = texelFetch(items, int(i));
+  return Item(texel.x, texel.yz >> gl_LocalInvocationIndex);
 }
 
 // Whether receiver j of this invocation sees the item's cluster: 0 or 1.
@@ -113,25 +111,30 @@ void add_glossy(Receiver r, Cluster c, float seen, inout Sums sums) {
   add(sums, (seen * inverse_d2) * fast_fvpl_emission_flat(c.ndf, c, u, inverse_d2), distant_reflection(r, u, inverse_sharpness));
 }
 
-void add_footprint(Receiver r, Cluster c, vec3 v, FvplView view, vec3 emission, float seen, inout Sums sums) {
-  float above = BUMPED == 0 ? seen : seen * geometric_horizon(r, v, c.inverse_variance);
-  add(sums, above * emission, receive(r, fvpl_incoming(view, c.inverse_variance)));
+float above_horizon(Receiver r, Cluster c, vec3 v) {
+  return BUMPED == 0 ? 1.0 : geometric_horizon(r, v, c.inverse_variance);
 }
 
-// Near by, of parallel normals.
-void add_near(Receiver r, Cluster c, float seen, inout Sums sums) {
+vec3 emission_of(Cluster c, vec3 u, float inverse_d2) {
+  return fast_fvpl_emission(EMISSION == NDF_NONE ? NDF_NONE : c.ndf, c, u, inverse_d2);
+}
+
+// A footprint none of which is behind a diffuse receiver.
+void add_middle(Receiver r, Cluster c, float seen, inout Sums sums) {
   vec3 v = c.position - r.position;
-  FvplView view = fvpl_view(v, c.inverse_variance);
-  vec3 emission = EMISSION == NDF_NONE ? fvpl_emission_diffuse(c, view.u) : fast_fvpl_emission_flat(c.ndf, c, view.u, view.inverse_d2);
-  add_footprint(r, c, v, view, emission, seen, sums);
+  float inverse_d = inversesqrt(dot(v, v));
+  float inverse_d2 = inverse_d * inverse_d;
+  vec3 u = v * inverse_d;
+  float cosine = narrow_cosine(dot(u, r.normal), inverse_d * inversesqrt(c.inverse_variance));
+  sums.diffuse += (seen * above_horizon(r, c, v) * INVERSE_PI * inverse_d2 * cosine) * emission_of(c, u, inverse_d2);
 }
 
 // Any.
-void add_general(Receiver r, Cluster c, float seen, inout Sums sums) {
+void add_near(Receiver r, Cluster c, float seen, inout Sums sums) {
   vec3 v = c.position - r.position;
   FvplView view = fvpl_view(v, c.inverse_variance);
-  vec3 emission = fast_fvpl_emission(EMISSION == NDF_NONE ? NDF_NONE : c.ndf, c, view.u, view.inverse_d2);
-  add_footprint(r, c, v, view, emission, seen, sums);
+  vec2 received = receive(r, fvpl_incoming(view, c.inverse_variance));
+  add(sums, (seen * above_horizon(r, c, v)) * emission_of(c, view.u, view.inverse_d2), received);
 }
 
 void main() {
@@ -149,21 +152,23 @@ void main() {
     [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_plain(receivers[j], c, visibility(item, j), sums[j]);
   }
   if (EMISSION != NDF_NONE) {
-    for (uint i = block.glossy; i < block.near; ++i) {
+    for (uint i = block.glossy; i < block.middle; ++i) {
       Item item = load_item(i);
       Cluster c = load_cluster(item.cluster);
       [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_glossy(receivers[j], c, visibility(item, j), sums[j]);
     }
   }
-  for (uint i = block.near; i < block.general; ++i) {
+  if (RECEIVER == NDF_NONE) {
+    for (uint i = block.middle; i < block.near; ++i) {
+      Item item = load_item(i);
+      Cluster c = load_cluster(item.cluster);
+      [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_middle(receivers[j], c, visibility(item, j), sums[j]);
+    }
+  }
+  for (uint i = block.near; i < block.end; ++i) {
     Item item = load_item(i);
     Cluster c = load_cluster(item.cluster);
     [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_near(receivers[j], c, visibility(item, j), sums[j]);
-  }
-  for (uint i = block.general; i < block.end; ++i) {
-    Item item = load_item(i);
-    Cluster c = load_cluster(item.cluster);
-    [[unroll]] for (uint j = 0; j < PIXELS; ++j) add_general(receivers[j], c, visibility(item, j), sums[j]);
   }
   [[unroll]] for (uint j = 0; j < PIXELS; ++j) {
     uint k = gl_LocalInvocationIndex + j * gl_WorkGroupSize.x;

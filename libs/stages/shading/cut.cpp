@@ -24,7 +24,7 @@ struct Image {
 void shade_pixels(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds,
                   std::span<const std::uint8_t> shaded, CutPass& pass, bool skip, Image& image,
                   Report& report) {
-  const std::vector<CutReceivers> lists = sort_into_blocks(gbuffer, kinds, shaded, pass.narrow(), skip);
+  const std::vector<CutReceivers> lists = sort_into_blocks(gbuffer, kinds, shaded, skip);
   for (const CutReceivers& receivers : lists) pass.prepare(receivers);
   for (const CutReceivers& receivers : lists) {
     const std::vector<interop::CutSums> sums = pass.run(receivers, CutPass::kWords, report);
@@ -102,11 +102,14 @@ void report_classes(std::span<const std::uint8_t> kinds, const CutClusters& clus
 void report_counts(const CutCounts& counts, std::size_t seen, bool skip, Report& report) {
   report.count("items_plain", counts.plain);
   report.count("items_glossy", counts.glossy);
+  report.count("items_middle", counts.middle);
   report.count("items_near", counts.near);
-  report.count("items_general", counts.general);
   report.count("evaluations", counts.evaluations);
   report.count("evaluations_per_pixel",
                seen > 0 ? static_cast<double>(counts.evaluations) / static_cast<double>(seen) : 0.0);
+  if (skip && counts.dark > 0)
+    report.skipped("clusters that face away",
+                   std::to_string(counts.dark) + " items that send nothing to a block");
   if (skip && counts.unseen > 0)
     report.skipped("occluded clusters",
                    std::to_string(counts.unseen) + " items that no pixel of a block sees");

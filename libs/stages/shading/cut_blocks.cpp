@@ -81,8 +81,12 @@ struct Bounds {
     }
     return sum;
   }
-  bool is_far(const Cluster& c) const {
-    return distance2(c.position) * c.inverse_variance > interop::CLUSTER_POINT;
+  // The largest of (x - p).n over the box.
+  float height(interop::vec3 p, interop::vec3 n) const {
+    const float at[] = {p.x, p.y, p.z}, normal[] = {n.x, n.y, n.z};
+    float sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += normal[k] * ((normal[k] > 0 ? high[k] : low[k]) - at[k]);
+    return sum;
   }
 };
 
@@ -91,7 +95,9 @@ class BlockLists {
  public:
   BlockLists(const GBuffer& gbuffer, const Cut& cut, const CutReceivers& receivers,
              const CutReceivers::Block& block)
-      : cut_(cut), pixels_(std::span(receivers.pixels).subspan(block.first, block.count)) {
+      : cut_(cut),
+        pixels_(std::span(receivers.pixels).subspan(block.first, block.count)),
+        diffuse_(receivers.ndf == interop::NDF_NONE) {
     for (std::size_t k = 0; k < pixels_.size(); ++k) {
       const Surface& s = gbuffer.pixels[pixels_[k]];
       bounds_.add(s.position);
@@ -104,25 +110,35 @@ class BlockLists {
   void fill(const CutClusters& clusters, const Cut::Tile& tile, bool skip) {
     for (std::uint32_t e = tile.first; e < tile.first + tile.count; ++e) {
       const std::uint64_t mask = seen_by(e);
-      if (mask == 0 && skip) {
+      const std::uint32_t index = clusters.entries[e];
+      const Cluster& c = clusters.clusters[index];
+      if (skip && mask == 0) {
         ++unseen;
         continue;
       }
-      const std::uint32_t index = clusters.entries[e];
-      const Cluster& c = clusters.clusters[index];
-      const bool flat = c.normal_sharpness > interop::CLUSTER_FLAT;
-      std::vector<std::uint32_t>& list = lists[!flat ? 3 : !bounds_.is_far(c) ? 2 : has_specular(c) ? 1 : 0];
+      if (skip && is_flat(c) && bounds_.height(c.position, c.normal) <= 0) {
+        ++dark;
+        continue;
+      }
+      std::vector<std::uint32_t>& list = lists[class_of(c)];
       list.push_back(index);
       if (!cut_.has_visibility()) continue;
-      list.push_back(static_cast<std::uint32_t>(mask));
-      list.push_back(static_cast<std::uint32_t>(mask >> 32));
+      list.insert(list.end(), {static_cast<std::uint32_t>(mask), static_cast<std::uint32_t>(mask >> 32), 0});
     }
   }
 
-  std::array<std::vector<std::uint32_t>, kClasses> lists;  // plain, glossy, near, general
-  std::size_t unseen = 0;
+  std::array<std::vector<std::uint32_t>, kClasses> lists;  // plain, glossy, middle, near
+  std::size_t unseen = 0, dark = 0;
 
  private:
+  static bool is_flat(const Cluster& c) { return c.normal_sharpness > interop::CLUSTER_FLAT; }
+
+  std::size_t class_of(const Cluster& c) const {
+    const float sharpness = bounds_.distance2(c.position) * c.inverse_variance;
+    if (sharpness > interop::CLUSTER_POINT && is_flat(c)) return has_specular(c) ? 1 : 0;
+    return diffuse_ && sharpness > interop::CLUSTER_MIDDLE ? 2 : 3;
+  }
+
   // Bit k: receiver k of the block sees the entry.
   std::uint64_t seen_by(std::uint32_t entry) const {
     const std::uint64_t all = ~std::uint64_t{0} >> (CUT_BLOCK - pixels_.size());
@@ -137,6 +153,7 @@ class BlockLists {
 
   const Cut& cut_;
   std::span<const std::uint32_t> pixels_;
+  bool diffuse_;  // no receiver has a specular lobe
   Bounds bounds_;
   std::array<std::uint8_t, CUT_BLOCK> bits_{};  // of a tile's mask
 };
@@ -144,8 +161,7 @@ class BlockLists {
 }  // namespace
 
 std::vector<CutReceivers> sort_into_blocks(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds,
-                                           std::span<const std::uint8_t> shaded, std::uint32_t narrow,
-                                           bool skip) {
+                                           std::span<const std::uint8_t> shaded, bool skip) {
   constexpr std::size_t kKinds = interop::NDF_ANY;
   std::array<CutReceivers, 2 * kKinds> lists;  // wide, narrow
   std::array<std::vector<std::uint32_t>, kKinds> pixels;
@@ -162,9 +178,9 @@ std::vector<CutReceivers> sort_into_blocks(const GBuffer& gbuffer, std::span<con
       for (std::size_t kind = 0; kind < kKinds; ++kind) {
         const std::span all(pixels[kind]);
         const std::size_t rest = all.size() % CUT_BLOCK,
-                          wide = rest <= CUT_BLOCK / 2 ? all.size() - rest : all.size();
+                          wide = rest <= kNarrowBlock ? all.size() - rest : all.size();
         append(lists[2 * kind], tile, all.first(wide), CUT_BLOCK);
-        append(lists[2 * kind + 1], tile, all.subspan(wide), narrow);
+        append(lists[2 * kind + 1], tile, all.subspan(wide), kNarrowBlock);
         pixels[kind].clear();
       }
     }
@@ -206,32 +222,33 @@ CutLists build_lists(const GBuffer& gbuffer, const Cut& cut, const CutClusters& 
                      const CutReceivers& receivers, std::span<const CutReceivers::Block> blocks, bool skip,
                      CutCounts& counts) {
   std::vector<std::array<std::vector<std::uint32_t>, kClasses>> lists(blocks.size());
-  std::size_t unseen = 0;
-#pragma omp parallel for schedule(dynamic, 16) reduction(+ : unseen)
+  std::size_t unseen = 0, dark = 0;
+#pragma omp parallel for schedule(dynamic, 16) reduction(+ : unseen, dark)
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     BlockLists block(gbuffer, cut, receivers, blocks[b]);
     block.fill(clusters, cut.tiles[blocks[b].tile], skip);
     unseen += block.unseen;
+    dark += block.dark;
     lists[b] = std::move(block.lists);
   }
   counts.unseen += unseen;
+  counts.dark += dark;
 
   CutLists out;
   const std::size_t words = cut.has_visibility() ? interop::CUT_MASKED_ITEM : interop::CUT_ITEM;
+  std::array<std::size_t*, kClasses> totals = {&counts.plain, &counts.glossy, &counts.middle, &counts.near};
   std::size_t next = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const std::size_t plain = lists[b][0].size() / words, glossy = lists[b][1].size() / words,
-                      near = lists[b][2].size() / words, general = lists[b][3].size() / words;
-    const auto at = [](std::size_t item) { return static_cast<std::uint32_t>(item); };
-    const std::size_t end = next + plain + glossy + near + general;
-    out.blocks.push_back({blocks[b].first - blocks.front().first, blocks[b].count, at(next), at(next + plain),
-                          at(next + plain + glossy), at(end - general), at(end)});
-    counts.plain += plain;
-    counts.glossy += glossy;
-    counts.near += near;
-    counts.general += general;
-    counts.evaluations += (end - next) * blocks[b].count;
-    next = end;
+    std::array<std::uint32_t, kClasses + 1> first{static_cast<std::uint32_t>(next)};
+    for (std::size_t k = 0; k < kClasses; ++k) {
+      const std::size_t items = lists[b][k].size() / words;
+      *totals[k] += items;
+      counts.evaluations += items * blocks[b].count;
+      next += items;
+      first[k + 1] = static_cast<std::uint32_t>(next);
+    }
+    out.blocks.push_back({blocks[b].first - blocks.front().first, blocks[b].count, first[0], first[1],
+                          first[2], first[3], first[4]});
   }
   out.items.resize(next * words);
 #pragma omp parallel for schedule(static)

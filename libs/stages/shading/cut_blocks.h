@@ -28,11 +28,13 @@ struct CutReceivers : CutKernel {
   std::vector<std::uint32_t> pixels;  // of the image
   std::vector<Block> blocks;
 };
-// The pixels whose `shaded` is 1, tile by tile; within a tile by squares of 8x8. Where no more than half of a
-// block is left of a tile, narrow blocks take it, which leave fewer of their places empty.
+// Receivers of a narrow block at most; of a wide one: CUT_BLOCK.
+inline constexpr std::uint32_t kNarrowBlock = interop::CUT_BLOCK / 2;
+
+// The pixels whose `shaded` is 1, tile by tile; within a tile by squares of 8x8. Where so few are left of a
+// tile that a narrow block takes them, one does.
 std::vector<CutReceivers> sort_into_blocks(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds,
-                                           std::span<const std::uint8_t> shaded, std::uint32_t narrow,
-                                           bool skip);
+                                           std::span<const std::uint8_t> shaded, bool skip);
 
 // Those nodes of a tree that a cut uses.
 struct CutClusters {
@@ -44,8 +46,9 @@ CutClusters gather_clusters(const Lights& lights, const Cut& cut);
 
 // Counts of the items of lists, and of evaluations (items times receivers).
 struct CutCounts {
-  std::size_t plain = 0, glossy = 0, near = 0, general = 0;
+  std::size_t plain = 0, glossy = 0, middle = 0, near = 0;
   std::size_t unseen = 0;  // entries that no receiver of a block sees, left out
+  std::size_t dark = 0;    // entries that face away from all receivers of a block, left out
   std::size_t evaluations = 0;
 };
 struct CutLists {

@@ -34,15 +34,11 @@ CutPass::CutPass(const GBuffer& gbuffer, const Cut& cut, const CutClusters& clus
       device_(device),
       cluster_buffer_(gpu::Buffer::from(device, clusters.clusters)) {}
 
-std::uint32_t CutPass::narrow() const {
-  return lanes_of(device_);
-}
-
 // How many blocks from `first` on fit at once.
 std::size_t CutPass::leading(const CutReceivers& receivers, std::size_t first, std::size_t words) const {
   const VkPhysicalDeviceLimits& limits = device_.limits();
   const std::size_t item = cut_.has_visibility() ? interop::CUT_MASKED_ITEM : interop::CUT_ITEM,
-                    most_words = std::min<std::size_t>(words, limits.maxTexelBufferElements),
+                    most_words = std::min<std::size_t>(words, item * limits.maxTexelBufferElements),
                     most_blocks = std::min<std::size_t>(
                         limits.maxComputeWorkGroupCount[0],
                         limits.maxStorageBufferRange / (interop::CUT_BLOCK * sizeof(interop::Surface)));
@@ -60,12 +56,13 @@ gpu::ComputePipeline CutPass::pipeline_of(const CutKernel& kernel) const {
   const std::uint32_t lanes = lanes_of(device_);
   return gpu::ComputePipeline(
       device_, cut_comp_spv,
-      {Binding::storage, Binding::storage, Binding::texel_rgba32f, Binding::texel_r32ui, Binding::storage},
+      {Binding::storage, Binding::storage, Binding::texel_rgba32f,
+       cut_.has_visibility() ? Binding::texel_rgba32ui : Binding::texel_r32ui, Binding::storage},
       sizeof(interop::CutPush),
       {{interop::SHADING_RECEIVER_ID, kernel.ndf},
        {interop::SHADING_EMISSION_ID, skip_ ? clusters_.ndf : interop::NDF_ANY},
        {interop::SHADING_BUMPED_ID, kernel.bumped},
-       {interop::SHADING_PIXELS_ID, kernel.wide ? interop::CUT_BLOCK / lanes : 1},
+       {interop::SHADING_PIXELS_ID, (kernel.wide ? interop::CUT_BLOCK : kNarrowBlock) / lanes},
        {interop::CUT_LANES_ID, lanes},
        {interop::CUT_MASKED_ID, cut_.has_visibility()}});
 }

@@ -28,7 +28,6 @@ class CutPass {
   // too small for one.
   std::vector<interop::CutSums> run(const CutReceivers& receivers, std::size_t words, Report& report);
 
-  std::uint32_t narrow() const;  // receivers of a narrow block: one an invocation
   const CutCounts& counts() const { return counts_; }
 
   static constexpr std::size_t kWords = std::size_t{1} << 26;  // of lists at a time: 256 MiB

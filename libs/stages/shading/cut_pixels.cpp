@@ -21,7 +21,7 @@ constexpr double kSmallestAgreement = 0.9;
 constexpr double kLargestBend = 0.05;
 // Of irradiance around an interpolated pixel, where the image's error may be kCoarse or more; below, its
 // square falls with the error, as interpolation errs by the square of the contrast.
-constexpr double kLargestContrast = 0.25, kCoarse = 0.1;
+constexpr double kLargestContrast = 0.5, kCoarse = 0.1;
 
 std::uint8_t kind_of(const Surface& s) {
   if (s.id == interop::NO_INSTANCE) return kBackground;

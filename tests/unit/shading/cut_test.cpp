@@ -215,7 +215,7 @@ TEST(Cut, GivesTheSameBytesInPieces) {
   CutPass pass(m.gbuffer, m.cut, clusters, false, test::shared_device());
   std::vector<std::uint8_t> seen = all;
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = kinds[i] != kBackground;
-  for (const CutReceivers& receivers : sort_into_blocks(m.gbuffer, kinds, seen, pass.narrow(), false)) {
+  for (const CutReceivers& receivers : sort_into_blocks(m.gbuffer, kinds, seen, false)) {
     Report report;
     const auto whole = pass.run(receivers, CutPass::kWords, report), pieces = pass.run(receivers, 1, report);
     ASSERT_EQ(whole.size(), receivers.pixels.size());
