@@ -62,9 +62,9 @@ def coverage(lights, pdf):
 
 @functools.cache
 def lights(folder):
-    """`brightest`: the largest power of a light over the mean one; `spread`: standard deviation of powers over their mean;
-    `dimming`: power over area of the quarter with the largest footprints, over that of the quarter with the smallest (not a
-    number where footprints are points)."""
+    """`brightest`: the largest power of a light over the mean one; `share`: the same over that of all; `spread`: standard deviation of
+    powers over their mean; `dimming`: power over area of the quarter with the largest footprints, over that of the quarter with
+    the smallest (not a number where footprints are points)."""
     found, _ = exr.read(f"{folder}/lights.exr")
     powers = luminous_powers(found)
     kept = powers > 0
@@ -73,5 +73,6 @@ def lights(folder):
     quarter = max(1, len(order) // 4)
     small, large = (powers[part].sum() / areas[part].sum() if areas[part].sum() > 0 else math.nan
                     for part in (order[:quarter], order[-quarter:]))
-    return {"brightest": float(powers.max() / powers.mean()), "spread": float(powers.std() / powers.mean()),
-            "dimming": float(large / small)}
+    mean = powers.mean()
+    return {"brightest": float(powers.max() / mean), "share": float(powers.max() / powers.sum()),
+            "spread": float(powers.std() / mean), "dimming": float(large / small)}

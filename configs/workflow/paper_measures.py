@@ -110,10 +110,13 @@ def flicker(data, spec):
 
 
 def frame_time(data, spec):
-    """Milliseconds of a frame of the sequence: all stages of `render`, or one."""
+    """Milliseconds of a frame of the sequence: all stages of `render`, or those named."""
     row = data.sequence(spec["sequence"])
     phases = read_json(f"{row['stage']}/report.json")["phases"]
-    wanted = [phase for phase in phases if phase["name"].split()[0] not in FILES]
+    if spec["frame_time"] is True:
+        wanted = [phase for phase in phases if phase["name"].split()[0] not in FILES]
+    else:
+        wanted = [phase for phase in phases if phase["name"] in spec["frame_time"]]
     return 1000 * sum(phase["host_s"] for phase in wanted) / row["frames"]
 
 
