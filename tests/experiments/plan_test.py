@@ -271,7 +271,7 @@ class Methods(unittest.TestCase):
     """error-vs-time.json sets every method beside the others."""
 
     # What its scenes have no light for, and what only stands for another one.
-    ABSENT = {"environment", "auto", "flat", "cut"}
+    ABSENT = {"environment", "sphere-lights", "auto", "flat", "cut"}
     CHOICES = [("pdf_build", "method"), ("pdf_build", "gbuffer_generation"), ("vsgl_gen", "method"), ("vsgl_gen", "lobe_filter"),
                ("ismap", "method"), ("shade", "light_model"), ("shade", "schedule"), ("shade", "specular_lobe")]
 
