@@ -17,7 +17,7 @@ PREFIX ?= /usr/local
 PYTHON ?= /usr/bin/python3
 SOURCES = $(shell git ls-files 'apps/*.cpp' 'libs/*.cpp' 'libs/*.h' 'tests/*.cpp' 'tests/*.h' 'shaders/interop/*.h')
 
-.PHONY: help setup setup-lint configure build demo test experiment paper bench flicker asan tidy format format-check install golden-update clean
+.PHONY: help setup setup-lint configure build demo test experiment paper bench flicker atlas asan tidy format format-check install golden-update clean
 
 help: ## show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -59,6 +59,10 @@ bench: build ## time the shading kernel against native code, the demo chain stag
 flicker: configure ## render and trace 64 frames of a moving light into out/flicker: how the methods flicker, where they pop
 	@cmake --build --preset $(PRESET) -j $(JOBS) --target tools
 	@$(PYTHON) configs/workflow/flicker.py --bin $(BUILD)/bin --output out/flicker
+
+atlas: configure ## errors of the lobe models over their whole range, float32 against quadrature, as heat maps into out/atlas
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target stability_atlas report
+	@$(PYTHON) tests/stability/atlas.py --bin $(BUILD)/bin --output out/atlas
 
 asan: ## the test run under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory build PRESET=asan

@@ -60,8 +60,9 @@ CellErrors cell_errors(const SpecularGrid& grid, std::size_t cell, const std::ve
   CellErrors errors;
   const std::size_t lights = grid.lights_per_cell();
   for (std::size_t i = cell * lights; i < (cell + 1) * lights; ++i) {
-    if (!(grid.exact[i] > 0.01 * grid.peaks[cell])) continue;
     const double value = double{values[i]};
+    errors.finite = errors.finite && std::isfinite(value);
+    if (!(grid.exact[i] > 0.01 * grid.peaks[cell])) continue;
     const double difference = std::isfinite(value) ? std::abs(value - grid.exact[i]) : 1e300;
     errors.relative.push_back(difference / grid.exact[i]);
     const double absolute = std::min(difference / grid.peaks[cell], 10.0);

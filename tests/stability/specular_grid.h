@@ -34,6 +34,7 @@ SpecularGrid specular_grid(std::uint32_t ndf, const SpecularAxes& axes, int node
 struct CellErrors {
   double mean = 0;     // of |error| / peak, each at most 10
   double largest = 0;  // likewise
+  bool finite = true;  // all of the cell's values
   std::vector<double> relative;
 };
 CellErrors cell_errors(const SpecularGrid& grid, std::size_t cell, const std::vector<float>& values);

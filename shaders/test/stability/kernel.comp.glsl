@@ -78,6 +78,11 @@ void put_incoming() {
   put(fluence(light));
 }
 
+void put_library_fluence() {
+  VsglIncoming light = vsgl_incoming(take3(), take(), take3(), take());
+  put(light.fluence);
+}
+
 void put_cosine() {
   float c = take(), sharpness = take();
   Incoming light = lobe_light(vec3(sqrt(max(1.0 - c * c, 0.0)), 0.0, c), sharpness);
@@ -93,12 +98,14 @@ void call() {
       put(receive(r, take_light()));
       return;
     }
+    case 9u: put_library_fluence(); return;
     case 10u: put(published_cosine_mean(take(), take())); return;
     case 11u: put(published_cosine_difference(take(), take())); return;
     case 12u: put(pulled_out_cosine(take())); return;
     case 13u: put(sg_cosine_mean(take(), take())); return;
     case 14u: put(vmf_hemisphere(take(), take())); return;
     case 15u: put(cosine_mean(take(), take())); return;
+    case 16u: put(published_fluence(take3(), take(), take3(), take())); return;
   }
   Receiver r = take_receiver();
   vec3 axis = take3();
