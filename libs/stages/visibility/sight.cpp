@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "stages/visibility/views.h"
 
@@ -23,18 +22,19 @@ float product(interop::vec3 a, interop::vec3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// Of a point of the tree and a pixel: the distance and, times it, the cosines at both ends.
+// Of a point of the tree and a pixel: the cosines at both ends times the distance.
 struct Meeting {
-  float emission, arrival, distance;
+  interop::vec3 v{};
+  float emission = 0, arrival = 0;
+
+  Meeting() = default;
+  Meeting(interop::vec3 point, interop::vec3 normal, const interop::Surface& pixel)
+      : v(minus(pixel.position, point)), emission(product(v, normal)), arrival(-product(v, pixel.normal)) {}
 
   float least() const { return std::min(emission, arrival); }
-  bool faces() const { return least() > kGrazing * distance; }
+  float distance() const { return std::sqrt(product(v, v)); }
+  bool faces() const { return least() > 0 && least() > kGrazing * distance(); }
 };
-
-Meeting meeting(interop::vec3 point, interop::vec3 normal, const interop::Surface& pixel) {
-  const interop::vec3 v = minus(pixel.position, point);
-  return {product(v, normal), -product(v, pixel.normal), std::sqrt(product(v, v))};
-}
 
 }  // namespace
 
@@ -56,18 +56,21 @@ Sight::Sight(const GBuffer& gbuffer, const Lights& tree, std::span<const interop
 const Sight::Point* Sight::facing_point(Pair pair) const {
   const Point* point = &points_[pair.node];
   const interop::Surface& receiver = pixel(pair);
+  Meeting met(point->position, point->normal, receiver);
   for (int level = 0;; ++level) {
-    const Meeting m = meeting(point->position, point->normal, receiver);
-    if (m.faces()) return point->lit ? point : nullptr;
-    const bool others_may = m.emission > -point->spread * (m.distance + point->extent) &&
-                            m.arrival > -point->extent && point->children != 0;
-    if (!others_may || level == kSearchedLevels) return nullptr;
+    if (met.faces()) return point->lit ? point : nullptr;
+    const bool others_may = level < kSearchedLevels && point->children != 0 && met.arrival > -point->extent &&
+                            met.emission > -point->spread * (met.distance() + point->extent);
+    if (!others_may) return nullptr;
+    // The lit child that faces the pixel most; of unlit ones the first.
     const Point* first = &points_[point->children];
-    const auto rank = [&](const Point& p) {
-      return p.lit ? meeting(p.position, p.normal, receiver).least() : -std::numeric_limits<float>::max();
-    };
-    point =
-        std::max_element(first, first + 4, [&](const Point& a, const Point& b) { return rank(a) < rank(b); });
+    point = first;
+    for (const Point* child = first; child < first + 4; ++child) {
+      const Meeting m(child->position, child->normal, receiver);
+      if (child != first && (!child->lit || (point->lit && m.least() <= met.least()))) continue;
+      point = child;
+      met = m;
+    }
   }
 }
 
