@@ -129,7 +129,7 @@ VSGL_LANE Filtered filtered_ggx(const Receiver& r, V3 h, float hh, float inverse
   return {1 / (kPi * std::sqrt(par * perp) * q * q), std::sqrt(r.sin_view * r.sin_view * par + c2)};
 }
 
-// Mean of BRDF times cosine under the normalised SG about u: specular_vmf() of math/specular_lobe.h.
+// Mean of BRDF times cosine under the normalised SG about u: specular_vmf_blend() of math/specular_lobe.h.
 template <Reflection R>
 VSGL_LANE float extended_reflection(const Receiver& r, V3 u, float cosine, const Lobe& lobe) {
   const V3 light = {dot(u, r.tangent), dot(u, r.bitangent), cosine};

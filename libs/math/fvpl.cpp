@@ -93,7 +93,7 @@ double fvpl_fluence(double d2, double inverse_variance) {
 FvplReflection fvpl_extended(const SpecularReceiver& r, const FvplView& view, double inverse_variance) {
   const double fluence = fvpl_fluence(view.d2, inverse_variance);
   const double diffuse = cosine_mean(dot(view.u, r.normal), view.sharpness) * std::numbers::inv_pi;
-  const double specular = r.ndf == interop::NDF_NONE ? 0 : specular_vmf(r, view.u, view.sharpness);
+  const double specular = r.ndf == interop::NDF_NONE ? 0 : specular_vmf_blend(r, view.u, view.sharpness);
   return {fluence * diffuse, fluence * specular};
 }
 

@@ -41,6 +41,7 @@ SpecularReceiver specular_receiver(std::uint32_t ndf, double alpha, Vec3 normal,
   r.alpha2 = alpha * alpha;
   r.across = ndf_sharpness(ndf, alpha) / (4 * r.cos_view * r.cos_view);
   const Vec3 v = local_view(r), m = dominant_normal(r.alpha2, {0, 0, 1}, v);
+  r.across_cos2 = r.cos_view * dot(v, m);
   r.mirror = (1 - r.alpha2) / (2 * r.alpha2) * (2 * dot(v, m) * m - v);
   r.view_lambda = smith_lambda(ndf, r.alpha2, r.cos_view);
   r.ndf = ndf;
@@ -112,7 +113,7 @@ double specular_vmf_gaussian(const SpecularReceiver& r, Vec3 axis, double sharpn
                    ramp((0.1 * sharpness - r.across) / (0.08 * std::max(sharpness, 1e-6))));
 }
 
-double specular_vmf(const SpecularReceiver& r, Vec3 axis, double sharpness) {
+double specular_vmf_blend(const SpecularReceiver& r, Vec3 axis, double sharpness) {
   return r.ndf == interop::NDF_GGX ? specular_vmf_ggx(r, axis, sharpness)
                                    : specular_vmf_gaussian(r, axis, sharpness);
 }

@@ -17,6 +17,7 @@ struct SpecularReceiver {
   double sin_view = 0, cos_view = 1;  // cos_view >= 1e-4
   double alpha2 = 1;
   double across = 0;       // ndf_sharpness / (4 cos_view^2)
+  double across_cos2 = 1;  // cosine of the view to the normal times that to the dominant normal
   Vec3 mirror;             // local: reflection at the dominant normal, times the sharpness of the lobe
   double view_lambda = 0;  // Smith's Lambda of the view direction
   std::uint32_t ndf = 0;
@@ -49,7 +50,7 @@ double specular_vmf_projected(const SpecularReceiver& r, Vec3 axis, double sharp
 double specular_vmf_gaussian(const SpecularReceiver& r, Vec3 axis, double sharpness);
 // The light's spread filters the density of normals, without fall-back for sharp lights.
 double specular_vmf_ndf_filter(const SpecularReceiver& r, Vec3 axis, double sharpness);
-// The most accurate form of each density of normals.
-double specular_vmf(const SpecularReceiver& r, Vec3 axis, double sharpness);
+// GGX by the blended form, Beckmann and Phong by the Gaussian one.
+double specular_vmf_blend(const SpecularReceiver& r, Vec3 axis, double sharpness);
 
 }  // namespace vsgl

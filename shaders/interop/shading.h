@@ -79,11 +79,13 @@ VSGL_CONST uint VISIBILITY_MAPS = 1u;
 VSGL_CONST uint VISIBILITY_BITS = 2u;
 
 // How the receiver's specular lobe and the light's spherical Gaussian are multiplied and integrated.
-VSGL_CONST uint SPECULAR_LOBE_AUTO = 0u;        // the most accurate form per NDF
+VSGL_CONST uint SPECULAR_LOBE_AUTO = 0u;        // the most accurate form: mixture, blend in a cut
 VSGL_CONST uint SPECULAR_LOBE_SG = 1u;          // lobe and light as SGs
 VSGL_CONST uint SPECULAR_LOBE_ASG = 2u;         // lobe as an anisotropic SG
 VSGL_CONST uint SPECULAR_LOBE_ASG_ASG = 3u;     // lobe and light as anisotropic SGs
 VSGL_CONST uint SPECULAR_LOBE_NDF_FILTER = 4u;  // the light filters the density of normals
+VSGL_CONST uint SPECULAR_LOBE_BLEND = 5u;       // filtered density, blended into the BRDF
+VSGL_CONST uint SPECULAR_LOBE_MIXTURE = 6u;     // peak of the product, the density as a mixture of Gaussians
 
 // Where a light's shadow map looks: hemisphere about `axis`.
 struct ShadingView {

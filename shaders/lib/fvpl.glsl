@@ -100,7 +100,7 @@ float fvpl_fluence(float d2, float inverse_variance) {
 // From the whole footprint:
 vec2 fvpl_extended(SpecularReceiver r, FvplView view, float inverse_variance) {
   float diffuse = cosine_mean(dot(view.u, r.normal), view.sharpness) / PI;
-  float specular = r.ndf == NDF_NONE ? 0.0 : specular_vmf(r, view.u, view.sharpness);
+  float specular = r.ndf == NDF_NONE ? 0.0 : specular_vmf_blend(r, view.u, view.sharpness);
   return fvpl_fluence(view.d2, inverse_variance) * vec2(diffuse, specular);
 }
 

@@ -13,6 +13,7 @@ struct SpecularReceiver {
   float sin_view, cos_view;  // cos_view >= 1e-4
   float alpha2;
   float across;       // ndf_sharpness / (4 cos_view^2): sharpness of the lobe across the plane of incidence
+  float across_cos2;  // cosine of the view to the normal times that to the dominant normal
   vec2 mirror;        // (tangent, normal) components of the lobe that stands for the BRDF in visibility: axis times sharpness
   float view_lambda;  // Smith's Lambda of the view direction
   uint ndf;
@@ -34,6 +35,7 @@ SpecularReceiver specular_receiver(uint ndf, float alpha, vec3 normal, vec3 view
   // Reflection at the dominant normal m.
   vec3 v = vec3(r.sin_view, 0.0, r.cos_view);
   vec3 m = dominant_normal(r.alpha2, vec3(0.0, 0.0, 1.0), v);
+  r.across_cos2 = r.cos_view * dot(v, m);
   float sharpness = (1.0 - alpha) * (1.0 + alpha) / (2.0 * r.alpha2);
   r.mirror = sharpness * (2.0 * dot(v, m) * m - v).xz;
   r.view_lambda = smith_lambda(ndf, r.alpha2, r.cos_view);
@@ -139,8 +141,8 @@ float specular_vmf_ndf_filter(SpecularReceiver r, vec3 axis, float sharpness) {
   return r.ndf == NDF_GGX ? specular_vmf_filtered(r, axis, sharpness) : specular_vmf_projected(r, axis, sharpness);
 }
 
-// The most accurate form of each density of normals.
-float specular_vmf(SpecularReceiver r, vec3 axis, float sharpness) {
+// GGX by the blended form, Beckmann and Phong by the Gaussian one.
+float specular_vmf_blend(SpecularReceiver r, vec3 axis, float sharpness) {
   return r.ndf == NDF_GGX ? specular_vmf_ggx(r, axis, sharpness) : specular_vmf_gaussian(r, axis, sharpness);
 }
 

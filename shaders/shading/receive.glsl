@@ -2,11 +2,11 @@
 #ifndef VSGL_SHADING_RECEIVE_GLSL
 #define VSGL_SHADING_RECEIVE_GLSL
 
-#include "kernels/fused.glsl"
+#include "kernels/mixture.glsl"
 #include "lib/reflected_lobe.glsl"
 #include "shading/receiver.glsl"
 
-layout(constant_id = SHADING_LOBE_ID) const uint LOBE = SPECULAR_LOBE_AUTO;
+layout(constant_id = SHADING_LOBE_ID) const uint LOBE = SPECULAR_LOBE_BLEND;  // of a cut, which chooses none
 
 // The specular lobe's answer to the normalised SG, 1/sr.
 float specular_answer(Receiver r, Incoming incoming) {
@@ -15,6 +15,7 @@ float specular_answer(Receiver r, Incoming incoming) {
   if (LOBE == SPECULAR_LOBE_ASG_ASG) return specular_vmf_asg_asg(r.lobe, incoming.axis, incoming.sharpness);
   if (LOBE == SPECULAR_LOBE_NDF_FILTER) return specular_vmf_ndf_filter(r.lobe, incoming.axis, incoming.sharpness);
   vec3 light = specular_local(r.lobe, incoming.axis);
+  if (LOBE != SPECULAR_LOBE_BLEND) return fast_specular_mixture(r.lobe, light, incoming, r.slope_view);
   if (r.lobe.ndf == NDF_GGX) return fast_specular_ggx(r.lobe, light, incoming, r.slope_view);
   return fast_specular_gaussian(r.lobe, light, incoming);
 }

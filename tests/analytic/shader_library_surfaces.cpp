@@ -1,11 +1,13 @@
 #include <cmath>
 
 #include "math/frame.h"
+#include "math/mixture_lobe.h"
 #include "math/octahedral.h"
 #include "math/reflected_lobe.h"
 #include "shader_library.h"
 #include "spirv/test/library/frame.comp.glsl.h"
 #include "spirv/test/library/microfacet.comp.glsl.h"
+#include "spirv/test/library/mixture_lobe.comp.glsl.h"
 #include "spirv/test/library/octahedral.comp.glsl.h"
 #include "spirv/test/library/reflected_lobe.comp.glsl.h"
 #include "spirv/test/library/specular_lobe.comp.glsl.h"
@@ -179,7 +181,7 @@ SpecularReceiver take_receiver(Arguments& a) {
 
 Values values_of(const SpecularReceiver& r) {
   return Values() << r.tangent << r.bitangent << r.normal << r.sin_view << r.cos_view << r.alpha2 << r.across
-                  << r.alpha2 * r.mirror.x << r.alpha2 * r.mirror.z << r.view_lambda;
+                  << r.across_cos2 << r.alpha2 * r.mirror.x << r.alpha2 * r.mirror.z << r.view_lambda;
 }
 
 auto value(double (*method)(const SpecularReceiver&, Vec3, double)) {
@@ -235,9 +237,60 @@ LibraryFile specular_lobe_file() {
            {"specular_vmf_filtered", rows.calls, value(specular_vmf_filtered), tolerance, rows.wild},
            {"specular_vmf_ggx", rows.calls, value(specular_vmf_ggx), tolerance, rows.wild},
            {"specular_vmf_gaussian", rows.calls, value(specular_vmf_gaussian), tolerance, rows.wild},
-           {"specular_vmf", rows.calls, value(specular_vmf), tolerance, rows.wild},
+           {"specular_vmf_blend", rows.calls, value(specular_vmf_blend), tolerance, rows.wild},
            {"specular_vmf_projected", rows.calls, value(specular_vmf_projected), tolerance, rows.wild},
            {"specular_vmf_ndf_filter", rows.calls, value(specular_vmf_ndf_filter), tolerance, rows.wild}}};
+}
+
+// A twin of what a light of an axis and a sharpness gives a receiver.
+template <class Twin>
+auto of_light(Twin twin) {
+  return [twin](Arguments& a) {
+    const SpecularReceiver r = take_receiver(a);
+    const Vec3 light = specular_local(r, a.take3());
+    return twin(r, light, a.take());
+  };
+}
+
+LibraryFile mixture_lobe_file() {
+  const LobeRows rows;
+  using R = const SpecularReceiver&;
+  const auto spread = [](R r, Vec3, double sharpness) {
+    const MixtureSpread s = mixture_spread(r, sharpness);
+    return Values() << s.par << s.perp << s.broad;
+  };
+  const auto half_vector = [](R r, Vec3 light, double) {
+    const HalfVector h = mixture_half_vector(r, light);
+    return Values() << h.x << h.y;
+  };
+  const auto split = [](R r, Vec3, double sharpness) {
+    const MixtureSplit s = mixture_split(r, sharpness);
+    return Values() << s.x << s.tau;
+  };
+  const auto peak = [](R r, Vec3 light, double sharpness) {
+    const MixturePeak p = mixture_peak(r, mixture_spread(r, sharpness), light, sharpness,
+                                       mixture_half_vector(r, light), 0.5, 1);
+    return Values() << p.h.x << p.h.y << p.cos2 << std::exp(-p.exponent) << p.scale;
+  };
+  const auto tail = [](R r, Vec3 light, double sharpness) {
+    const MixtureSpread s = mixture_spread(r, sharpness);
+    const HalfVector h = mixture_half_vector(r, light);
+    return mixture_tail(s, mixture_split(r, sharpness).x, {h.x * h.x, h.y * h.y});
+  };
+  const Tolerance tolerance{4e-3, 1e-5};
+  return {"mixture_lobe",
+          mixture_lobe_comp_spv,
+          {{"mixture_incomplete",
+            powers(1e-6, 1e4, 1.3),
+            [](Arguments& a) { return mixture_incomplete(a.take()); },
+            {3e-5, 0}},
+           {"mixture_spread", rows.calls, of_light(spread), {1e-4, 0}},
+           {"mixture_half_vector", rows.calls, of_light(half_vector), {1e-5, 3e-4}},
+           {"mixture_split", rows.calls, of_light(split), {1e-4, 0}},
+           {"mixture_peak", rows.calls, of_light(peak), {5e-3, 3e-4}},
+           {"mixture_tail", rows.calls, of_light(tail), {1e-3, 1e-6}},
+           {"mixture_density", rows.calls, of_light(mixture_density), tolerance},
+           {"specular_vmf_mixture", rows.calls, value(specular_vmf_mixture), tolerance, rows.wild}}};
 }
 
 LibraryFile reflected_lobe_file() {
@@ -285,7 +338,8 @@ LibraryFile reflected_lobe_file() {
 }  // namespace
 
 std::vector<LibraryFile> surface_files() {
-  return {frame(), octahedral(), microfacet(), specular_lobe_file(), reflected_lobe_file()};
+  return {
+      frame(), octahedral(), microfacet(), specular_lobe_file(), mixture_lobe_file(), reflected_lobe_file()};
 }
 
 }  // namespace vsgl::test

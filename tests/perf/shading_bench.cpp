@@ -21,11 +21,14 @@ using vsgl::bench::NativeSums;
 
 constexpr double kTolerance = 1e-3;  // of the image's peak, between the two
 
+// The native kernel has the blended lobe; against it the others' images differ.
 struct Case {
   const char* name;
   bool glossy;
+  const char* lobe;
 };
-constexpr Case kCases[] = {{"diffuse", false}, {"ggx", true}};
+constexpr Case kCases[] = {
+    {"diffuse", false, "blend"}, {"ggx", true, "blend"}, {"ggx-mixture", true, "mixture"}};
 
 struct Options {
   int width = 640, height = 360, lights = 1024, repetitions = 7, threads = 0;
@@ -76,7 +79,7 @@ nlohmann::ordered_json measure(const Options& options, const Case& c, vsgl::gpu:
   const vsgl::Lights lights = vsgl::test::box_lights(scene);
   const NativeReceivers receivers = vsgl::bench::make_native_receivers(gbuffer);
   const auto packed = vsgl::pack_vsgl(lights);
-  const vsgl::ShadingParams params{.light_model = "vsgl"};
+  const vsgl::ShadingParams params{.light_model = "vsgl", .specular_lobe = c.lobe};
   const int bits = device.info().vector_bits;
   const auto native = bits == 512 ? vsgl::bench::width512::shade : vsgl::bench::width256::shade;
   const double evaluations = static_cast<double>(gbuffer.pixels.size()) * options.lights;
@@ -112,14 +115,15 @@ int run(const Options& options) {
                                 {"kernels", nlohmann::ordered_json::array()}};
   std::printf("shading kernel on %s, method vsgl, %dx%d pixels, %d lights\n", device.info().name.c_str(),
               options.width, options.height, options.lights);
-  std::printf("%-10s%14s%14s%8s%13s\n", "pixels", "device M/s", "native M/s", "ratio", "difference");
+  std::printf("%-12s%14s%14s%8s%13s\n", "pixels", "device M/s", "native M/s", "ratio", "difference");
   bool agree = true;
   for (const Case& c : kCases) {
     const auto row = measure(options, c, device);
-    std::printf("%-10s%14.1f%14.1f%8.2f%13.1e\n", c.name, row["device_mega_evaluations_per_s"].get<double>(),
+    std::printf("%-12s%14.1f%14.1f%8.2f%13.1e\n", c.name, row["device_mega_evaluations_per_s"].get<double>(),
                 row["native_mega_evaluations_per_s"].get<double>(), row["ratio"].get<double>(),
                 row["difference"].get<double>());
-    agree = agree && row["difference"].get<double>() < kTolerance;
+    const bool same_form = std::string(c.lobe) == "blend";
+    agree = agree && (!same_form || row["difference"].get<double>() < kTolerance);
     result["kernels"].push_back(row);
   }
   if (!options.output.empty() && !(std::ofstream(options.output) << result.dump(2) << "\n"))

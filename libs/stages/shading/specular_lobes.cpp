@@ -7,7 +7,11 @@ namespace vsgl {
 
 const std::vector<SpecularLobe>& specular_lobes() {
   static const std::vector<SpecularLobe> lobes = {
-      {"auto", "the most accurate form per normal distribution", interop::SPECULAR_LOBE_AUTO},
+      {"auto", "the most accurate form: mixture, and blend in a cut", interop::SPECULAR_LOBE_AUTO},
+      {"mixture", "peak of the product, normal distribution as a mixture of Gaussians",
+       interop::SPECULAR_LOBE_MIXTURE},
+      {"blend", "normal distribution filtered by the light, blended into the BRDF",
+       interop::SPECULAR_LOBE_BLEND},
       {"sg", "lobe and light as spherical Gaussians", interop::SPECULAR_LOBE_SG},
       {"asg", "lobe as an anisotropic spherical Gaussian, light as a round one", interop::SPECULAR_LOBE_ASG},
       {"asg-asg", "lobe and light as anisotropic spherical Gaussians", interop::SPECULAR_LOBE_ASG_ASG},

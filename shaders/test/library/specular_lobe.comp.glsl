@@ -17,6 +17,7 @@ void put(SpecularReceiver r) {
   put(vec2(r.sin_view, r.cos_view));
   put(r.alpha2);
   put(r.across);
+  put(r.across_cos2);
   put(r.mirror * r.alpha2);  // relative to the lobe's sharpness
   put(r.view_lambda);
 }
@@ -33,7 +34,7 @@ void call() {
     case 4u: put(specular_vmf_filtered(r, take3(), take())); break;
     case 5u: put(specular_vmf_ggx(r, take3(), take())); break;
     case 6u: put(specular_vmf_gaussian(r, take3(), take())); break;
-    case 7u: put(specular_vmf(r, take3(), take())); break;
+    case 7u: put(specular_vmf_blend(r, take3(), take())); break;
     case 8u: put(specular_vmf_projected(r, take3(), take())); break;
     case 9u: put(specular_vmf_ndf_filter(r, take3(), take())); break;
   }

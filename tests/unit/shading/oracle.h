@@ -10,6 +10,7 @@
 #include "cluster/cluster.h"
 #include "math/fvpl.h"
 #include "math/microfacet.h"
+#include "math/mixture_lobe.h"
 #include "math/reflected_lobe.h"
 #include "math/vsgl.h"
 
@@ -78,7 +79,9 @@ using SpecularForm = double (*)(const SpecularReceiver&, Vec3, double);
 // By the names of specular_lobes().
 inline SpecularForm specular_form(const std::string& lobe) {
   static const std::map<std::string, SpecularForm> forms = {
-      {"auto", specular_vmf},
+      {"auto", specular_vmf_mixture},
+      {"mixture", specular_vmf_mixture},
+      {"blend", specular_vmf_blend},
       {"sg", specular_vmf_sg},
       {"asg", specular_vmf_asg},
       {"asg-asg", specular_vmf_asg_asg},
