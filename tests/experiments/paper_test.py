@@ -61,6 +61,9 @@ FIGURE = {
         "error": {"metric": "relmse_rgb", "of": {"variant": "modified"}},
         "gap": {"kernels": "gap", "of": {}},
         "brightest": {"light": "brightest", "of": {}},
+        "share": {"light": "share", "of": {}},
+        "frame": {"frame_time": True, "sequence": "modified"},
+        "shading": {"frame_time": ["shade"], "sequence": "modified"},
         "time": {"time": ["vsgl-gen"], "of": {}},
         "lights": {"count": "lights", "stage": "vsgl-gen", "of": {}},
         "flicker": {"flicker": "flicker", "sequence": "modified"},
@@ -252,6 +255,8 @@ class Whole(unittest.TestCase):
             self.assertGreater(values["values"]["error"], 0)
             self.assertGreater(values["values"]["lines"], 10)
             self.assertTrue(0 < values["values"]["gap"] < 1 <= values["values"]["brightest"])
+            self.assertTrue(values["values"]["brightest"] / 8 <= values["values"]["share"] + 1e-9 < 1)
+            self.assertTrue(0 < values["values"]["shading"] < values["values"]["frame"])
             self.assertEqual([claim["holds"] for claim in values["claims"]], [True, False])
             page = (out / "report.html").read_text(encoding="utf-8")
             self.assertIn("There are 8.0 lights, 16.0 if doubled.", page)
