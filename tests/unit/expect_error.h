@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 
@@ -22,6 +24,12 @@ void expect_error(ErrorCode code, const std::vector<std::string>& fragments, Act
       EXPECT_NE(std::string(error.what()).find(fragment), std::string::npos)
           << "'" << fragment << "' is not in: " << error.what();
   }
+}
+
+// The same with one fragment.
+template <std::size_t N, typename Action>
+void expect_error(ErrorCode code, const char (&fragment)[N], Action action) {
+  expect_error(code, std::vector<std::string>{fragment}, action);
 }
 
 // A folder of its own for a test's files, removed at the end.

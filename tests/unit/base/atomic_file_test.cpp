@@ -6,13 +6,13 @@
 
 #include <cstdlib>
 
-#include "temporary_folder.h"
+#include "folder_test.h"
 
 namespace vsgl {
 namespace {
 
 using Names = std::set<std::string>;
-using Atomic = test::TemporaryFolder;
+using Atomic = test::FolderTest;
 
 TEST_F(Atomic, CommitMovesEveryOutputIntoPlace) {
   OutputSet outputs(false);
@@ -118,7 +118,7 @@ TEST_F(Atomic, AFailedRenameLeavesNoTemporary) {
   EXPECT_EQ(listing(), Names{"a.exr"});
 }
 
-class AtomicSignal : public test::TemporaryFolder, public ::testing::WithParamInterface<int> {};
+class AtomicSignal : public test::FolderTest, public ::testing::WithParamInterface<int> {};
 
 TEST_P(AtomicSignal, RemovesTheTemporariesAndEndsWithItsStatus) {
   write("old.exr", "old");
@@ -142,7 +142,7 @@ TEST_P(AtomicSignal, RemovesTheTemporariesAndEndsWithItsStatus) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, AtomicSignal, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
 
-using Text = test::TemporaryFolder;
+using Text = test::FolderTest;
 
 TEST_F(Text, RoundTrips) {
   const std::string text("a\0b\n\xff", 5);

@@ -1,6 +1,6 @@
 #include "base/hash.h"
 
-#include "temporary_folder.h"
+#include "folder_test.h"
 
 namespace vsgl {
 namespace {
@@ -19,7 +19,7 @@ TEST(Hash, MatchesPublishedVectors) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-using HashFile = test::TemporaryFolder;
+using HashFile = test::FolderTest;
 
 TEST_F(HashFile, EqualsTheHashOfTheBytes) {
   const std::string text(200001, 'x');  // more than one block

@@ -1,6 +1,6 @@
 #include "base/image_size.h"
 
-#include "temporary_folder.h"
+#include "folder_test.h"
 
 namespace vsgl {
 namespace {

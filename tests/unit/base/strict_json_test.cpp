@@ -1,6 +1,6 @@
 #include "base/strict_json.h"
 
-#include "temporary_folder.h"
+#include "folder_test.h"
 
 namespace vsgl {
 namespace {
@@ -106,7 +106,7 @@ TEST(StrictJson, CopiesShareTheKnownKeys) {
   root.finish();
 }
 
-using StrictJsonFile = test::TemporaryFolder;
+using StrictJsonFile = test::FolderTest;
 
 TEST_F(StrictJsonFile, MessagesNameTheFile) {
   write("bad.json", "{");

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.h"
-#include "temporary_folder.h"
+#include "folder_test.h"
 
 namespace vsgl {
 namespace {
@@ -22,10 +22,10 @@ struct Outcome {
   int threads = 0;
 };
 
-class ToolTest : public test::TemporaryFolder {
+class ToolTest : public test::FolderTest {
  protected:
   void SetUp() override {
-    test::TemporaryFolder::SetUp();
+    test::FolderTest::SetUp();
     write("rsm.exr", "rsm");
     write("scene.json", "scene");
   }
