@@ -270,8 +270,8 @@ class Sharing(Files):
 class Methods(unittest.TestCase):
     """error-vs-time.json sets every method beside the others."""
 
-    # What its scenes have no light for, and what only stands for another one.
-    ABSENT = {"environment", "sphere-lights", "auto", "flat", "cut"}
+    # What its scenes have no light for; "auto" stands for the others.
+    ABSENT = {"environment", "sphere-lights", "auto", "flat", "cut", "mixture"}
     CHOICES = [("pdf_build", "method"), ("pdf_build", "gbuffer_generation"), ("vsgl_gen", "method"), ("vsgl_gen", "lobe_filter"),
                ("ismap", "method"), ("shade", "light_model"), ("shade", "schedule"), ("shade", "specular_lobe")]
 
