@@ -9,6 +9,7 @@
 #include "gpu/compute.h"
 #include "kmeans/centre_tree.h"
 #include "kmeans/radix_sort.h"
+#include "pyramid/moment_pyramid.h"
 #include "spirv/kmeans/assign.comp.glsl.h"
 #include "spirv/kmeans/centres.comp.glsl.h"
 #include "spirv/kmeans/lights.comp.glsl.h"
@@ -52,6 +53,7 @@ struct LightsPush {
   uvec2 keys_at, parts_at, centres_at, lights_at, costs_at;
   std::uint32_t merges;
   float variance_floor;
+  std::uint32_t lobe_filter;
 };
 
 std::size_t texels_of_layer(int size) {
@@ -119,6 +121,7 @@ class Clustering {
   interop::Texels texels_;
   std::uint32_t count_;  // texels
   float variance_floor_;
+  std::uint32_t lobe_filter_;
   gpu::ComputePipeline assign_, sum_, merge_, finish_;
   RadixSort sort_;
   CentreTree tree_;
@@ -136,6 +139,7 @@ Clustering::Clustering(LayerMoments layers, int size, std::span<const std::uint3
       texels_(describe(layers, size, centres.size(), params)),
       count_(static_cast<std::uint32_t>(layers.size() * texels_of_layer(size))),
       variance_floor_(static_cast<float>(params.variance_floor)),
+      lobe_filter_(params.lobe_filter),
       assign_(device, assign_comp_spv, {}, sizeof(AssignPush), constants_for(params)),
       sum_(device, sum_comp_spv, {}, sizeof(SumPush), constants_for(params)),
       merge_(device, merge_comp_spv, {}, sizeof(MergePush)),
@@ -156,6 +160,7 @@ Clustering::Clustering(LayerMoments layers, int size, std::span<const std::uint3
   const CentresPush push{texels_, address_of(chosen), address_of(centres_)};
   const gpu::ComputePipeline pipeline(device, centres_comp_spv, {}, sizeof push, constants_for(params));
   gpu::Commands commands(device);
+  if (needs_encoding(lobe_filter_)) encode_lobes(moments_, count_, lobe_filter_, device, commands);
   commands.dispatch("centres", pipeline, {}, push, {groups_for(texels_.clusters, group_size), 1, 1});
   commands.submit(report);
 }
@@ -198,7 +203,8 @@ void Clustering::merge(gpu::Commands& commands) {
                         address_of(lights_),
                         address_of(costs_),
                         static_cast<std::uint32_t>(parts_.size()),
-                        variance_floor_};
+                        variance_floor_,
+                        lobe_filter_};
   commands.dispatch("merge", finish_, {}, push, {groups_for(texels_.clusters, group_size), 1, 1});
 }
 

@@ -11,6 +11,7 @@
 #include "gpu/device.h"
 #include "interop/kmeans.h"
 #include "interop/light.h"
+#include "interop/lobe_filter.h"
 #include "interop/moments.h"
 #include "math/sampling.h"
 #include "pyramid/kernels.h"
@@ -23,6 +24,8 @@ struct KmeansParams {
   double normal_weight = 0;                  // >= 0, of the squared distance of normals
   double scene_radius = 1;                   // m
   double variance_floor = 0;                 // of lights, m^2
+  std::uint32_t lobe_filter =
+      interop::LOBE_BANERJEE;  // LOBE_NONE: the lobes of the texel nearest to the centre
 };
 
 // Lit texels, level 0 of the moment pyramids (or all of them) of size x size texels each.

@@ -64,7 +64,7 @@ void filter_layer(const gpu::ComputePipeline& pipeline, FilterPush push, std::sp
   const Buffer moments = Buffer::from(device, pyramid);
   push.moments_at = address_of(moments);
   gpu::Commands commands(device);
-  if (push.lobe_filter == interop::LOBE_TOKSVIG || push.lobe_filter == interop::LOBE_LAURIJSSEN) {
+  if (needs_encoding(push.lobe_filter)) {
     const int size = 1 << push.top;
     encode_lobes(moments, pyramid_offset(size, 1), push.lobe_filter, device, commands);
     merge_levels(moments, size, device, commands);

@@ -1,8 +1,10 @@
 #include "pyramid/moment_pyramid.h"
 
+#include <algorithm>
 #include <span>
 
 #include "gpu/address.h"
+#include "interop/lobe_filter.h"
 #include "math/pyramid.h"
 #include "spirv/pyramid/encode_lobes.comp.glsl.h"
 #include "spirv/pyramid/merge.comp.glsl.h"
@@ -11,6 +13,7 @@ namespace vsgl {
 namespace {
 
 constexpr std::uint32_t group_side = 8, encode_group = 64;
+constexpr std::uint32_t encode_row = 32768;  // groups along x: devices need not take more than 65535
 
 struct EncodePush {
   interop::uvec2 texels_at;
@@ -52,11 +55,17 @@ std::vector<interop::Moments> MomentPyramid::download() {
   return pyramid;
 }
 
+bool needs_encoding(std::uint32_t lobe_filter) {
+  return lobe_filter == interop::LOBE_TOKSVIG || lobe_filter == interop::LOBE_LAURIJSSEN;
+}
+
 void encode_lobes(const gpu::Buffer& moments, std::size_t texels, std::uint32_t lobe_filter,
                   gpu::Device& device, gpu::Commands& commands) {
   const EncodePush push{address_of(moments), static_cast<std::uint32_t>(texels), lobe_filter};
   const gpu::ComputePipeline pipeline(device, encode_lobes_comp_spv, {}, sizeof push);
-  commands.dispatch("lobes", pipeline, {}, push, {gpu::groups_for(push.count, encode_group), 1, 1});
+  const std::uint32_t groups = gpu::groups_for(push.count, encode_group),
+                      rows = gpu::groups_for(groups, encode_row);
+  commands.dispatch("lobes", pipeline, {}, push, {std::min(groups, encode_row), rows, 1});
 }
 
 void merge_levels(const gpu::Buffer& pyramid, int size, gpu::Device& device, gpu::Commands& commands) {

@@ -28,6 +28,9 @@ class MomentPyramid {
   std::vector<gpu::Buffer> levels_;
 };
 
+// Whether lobes that are to be averaged by a map LOBE_* have to be encoded anew first: they come as
+// LOBE_BANERJEE has them.
+bool needs_encoding(std::uint32_t lobe_filter);
 // Appends what encodes the lobes of `texels` of an RSM, the finest level of its pyramid, anew by a map
 // LOBE_*.
 void encode_lobes(const gpu::Buffer& moments, std::size_t texels, std::uint32_t lobe_filter,

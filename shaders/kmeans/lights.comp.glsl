@@ -18,6 +18,7 @@ layout(push_constant, scalar) uniform Push {
   uvec2 costs_at;    // float per cluster, all 0, W
   uint merges;       // how often runs were merged, sum.comp.glsl included
   float variance_floor;  // m^2
+  uint lobe_filter;      // LOBE_*: how the lobes of the moments are encoded
 };
 #include "kmeans/part.glsl"
 #include "kmeans/texels.glsl"
@@ -52,7 +53,8 @@ ClusterPart merge_parts(uint cluster, uint first, uint last) {
 
 Light make_light(ClusterPart part) {
   Light light;
-  set_moments(light, part.moments, 1.0, variance_floor);
+  if (lobe_filter == LOBE_NONE) take_lobes(part.moments, texel_moments(part.texel));
+  set_moments(light, part.moments, 1.0, variance_floor, lobe_filter);
   // The mip level whose texels are as large.
   light.level = 0.5 * log2(float(part.texels));
   light.texel = part.texel % (texels.size * texels.size);

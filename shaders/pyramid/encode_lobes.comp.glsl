@@ -25,7 +25,7 @@ LobeMoments encode_anew(vec3 mean, float deficit) {
 }
 
 void main() {
-  const uint i = gl_GlobalInvocationID.x;
+  const uint i = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
   if (i >= count) return;
   Texels texels = Texels(texels_at);
   const LobeMoments diffuse = encode_anew(texels.at[i].diffuse_mean, texels.at[i].diffuse_deficit);

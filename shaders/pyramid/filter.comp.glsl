@@ -47,19 +47,6 @@ Moments filter_moments(Kernel kernel) {
   return moments_finish(sum);
 }
 
-// Without filtering the sampled texel's own lobes stand for all, those of the mean where it has none.
-void leave_lobes_unfiltered(uint texel, inout Moments moments) {
-  const Moments own = Pyramid(moments_at).at[texel];
-  if (own.diffuse_mean != vec3(0.0)) {
-    moments.diffuse_mean = own.diffuse_mean;
-    moments.diffuse_deficit = own.diffuse_deficit;
-  }
-  if (own.specular_mean != vec3(0.0)) {
-    moments.specular_mean = own.specular_mean;
-    moments.specular_deficit = own.specular_deficit;
-  }
-}
-
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= count) return;
@@ -67,7 +54,7 @@ void main() {
   if (kernel.layer != layer) return;
   Light light = Lights(lights_at).at[i];
   Moments moments = filter_moments(kernel);
-  if (lobe_filter == LOBE_NONE) leave_lobes_unfiltered(kernel.texel, moments);
+  if (lobe_filter == LOBE_NONE) take_lobes(moments, Pyramid(moments_at).at[kernel.texel]);
   set_moments(light, moments, kernel.power_scale, variance_floor, lobe_filter);
   light.level = kernel.level;
   light.texel = kernel.texel;

@@ -13,6 +13,18 @@ SgLobe decode_lobe(uint lobe_filter, vec3 power, vec3 mean, float deficit) {
   return lobe_decode_by(lobe_filter, LobeMoments(mean, deficit));
 }
 
+// Without filtering one texel's own lobes stand for all, those of the mean where it has none.
+void take_lobes(inout Moments moments, Moments own) {
+  if (own.diffuse_mean != vec3(0.0)) {
+    moments.diffuse_mean = own.diffuse_mean;
+    moments.diffuse_deficit = own.diffuse_deficit;
+  }
+  if (own.specular_mean != vec3(0.0)) {
+    moments.specular_mean = own.specular_mean;
+    moments.specular_deficit = own.specular_deficit;
+  }
+}
+
 // Sets what a light has from `moments`, with powers times `power_scale`; the other members stay as they are.
 // variance_floor: m^2.
 void set_moments(inout Light light, Moments moments, float power_scale, float variance_floor, uint lobe_filter) {
@@ -30,11 +42,6 @@ void set_moments(inout Light light, Moments moments, float power_scale, float va
   light.specular_axis = specular.axis;
   light.normal = normal_length > 0.0 ? moments.normal_mean / normal_length : vec3(0.0);
   light.normal_deficit = moments.normal_deficit;
-}
-
-// The same with lobes encoded as an RSM's.
-void set_moments(inout Light light, Moments moments, float power_scale, float variance_floor) {
-  set_moments(light, moments, power_scale, variance_floor, LOBE_BANERJEE);
 }
 
 #endif

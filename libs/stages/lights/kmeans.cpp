@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "math/lobe.h"
 #include "stages/lights/filtered.h"
 #include "stages/lights/methods.h"
 
@@ -29,7 +30,8 @@ LightSet generate(const Rsm& rsm, const Pdf& pdf, std::uint32_t space, const Lig
                                       .iterations = params.kmeans_iterations,
                                       .normal_weight = params.kmeans_normal_weight,
                                       .scene_radius = rsm.scene_radius,
-                                      .variance_floor = deviation * deviation},
+                                      .variance_floor = deviation * deviation,
+                                      .lobe_filter = lobe_filter_kind(params.lobe_filter)},
                                      device, report);
   report.count("kmeans_iterations", clusters.iterations);
   report.count("kmeans_rms_distance", rms_distance(rsm, clusters.cost));

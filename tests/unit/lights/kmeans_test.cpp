@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "../expect_error.h"
 #include "../synthetic_room.h"
+#include "math/lobe.h"
 #include "stages/lights/lights.h"
 
 namespace vsgl {
@@ -117,6 +119,58 @@ TEST(KmeansLights, NormalsSeparateWalls) {
   };
   EXPECT_GT(bent(0), 0);
   EXPECT_LT(bent(1), 0.5 * bent(0));
+}
+
+SgLobe specular_lobe_of(const interop::Moments& m) {
+  return lobe_decode({test::to_double(m.specular_mean), static_cast<double>(m.specular_deficit)});
+}
+
+// Of all texels' specular lobes, in double precision.
+SgLobe mean_specular_lobe(const Rsm& rsm, const std::string& lobe_filter) {
+  const std::uint32_t kind = lobe_filter_kind(lobe_filter);
+  Vec3 sum;
+  double power = 0;
+  for (std::size_t i = 0; i < rsm.layers[0].surface.size(); ++i) {
+    const interop::Moments& m = rsm.layers[0].pyramid[i];
+    const double weight = luminance(test::to_double(m.power_specular));
+    if (weight <= 0) continue;
+    const SgLobe lobe = specular_lobe_of(m);
+    sum += lobe_encode_by(kind, lobe.axis, lobe.sharpness).mean * weight;
+    power += weight;
+  }
+  const Vec3 mean = sum / power;
+  return lobe_decode_by(kind, {mean, 1 - dot(mean, mean)});
+}
+
+// One cluster holds all lobes.
+TEST(KmeansLights, AverageLobesByTheMapOfChoice) {
+  const Rsm rsm = test::room_rsm(32);
+  std::set<float> found;
+  for (const char* lobe_filter : {"banerjee", "toksvig", "laurijssen"}) {
+    LightsParams params = params_of("kmeans-3d", 1);
+    params.lobe_filter = lobe_filter;
+    const Light light = generate(rsm, test::flux_pdf(rsm), params).lights.at(0);
+    const SgLobe exact = mean_specular_lobe(rsm, lobe_filter);
+    EXPECT_NEAR(static_cast<double>(light.specular_sharpness) / exact.sharpness, 1, 1e-3) << lobe_filter;
+    EXPECT_LT(length(test::to_double(light.specular_axis) - exact.axis), 1e-3) << lobe_filter;
+    found.insert(light.specular_sharpness);
+  }
+  EXPECT_EQ(found.size(), 3u);
+}
+
+TEST(KmeansLights, LeaveTheLobesOfTheNearestTexelUnfiltered) {
+  const Rsm rsm = test::room_rsm(64);
+  LightsParams params = params_of("kmeans-2d", 300);
+  params.lobe_filter = "none";
+  int specular = 0;
+  for (const Light& light : generate(rsm, test::flux_pdf(rsm), params).lights) {
+    const interop::Moments& own = rsm.layers[light.layer].pyramid[light.texel];
+    EXPECT_NEAR(light.diffuse_sharpness, interop::LAMBDA_DIFFUSE, 1e-4);
+    if (test::to_double(own.specular_mean) == Vec3{}) continue;
+    EXPECT_NEAR(static_cast<double>(light.specular_sharpness) / specular_lobe_of(own).sharpness, 1, 1e-3);
+    ++specular;
+  }
+  EXPECT_GT(specular, 50);
 }
 
 TEST(KmeansLights, RefuseParametersOutOfRange) {
