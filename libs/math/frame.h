@@ -11,9 +11,9 @@ struct Frame {
   Vec3 to_local(Vec3 world) const { return {dot(world, x), dot(world, y), dot(world, z)}; }
 };
 
-// Duff et al. 2017, Building an orthonormal basis, revisited; the twin of shaders/lib/frame.glsl.
+// The twin of shaders/lib/frame.glsl, where the source is named.
 inline Frame frame_about(Vec3 n) {
-  const double s = n.z < 0 ? -1 : 1;
+  const double s = n.z < -0.61 ? -1 : 1;
   const double a = -1 / (s + n.z), b = n.x * n.y * a;
   return {{1 + s * n.x * n.x * a, s * b, -s * n.x}, {b, s + n.y * n.y * a, -n.y}, n};
 }

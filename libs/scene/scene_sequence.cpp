@@ -24,12 +24,13 @@ struct Bounds {
   bool empty() const { return low.x > high.x; }
 };
 
-// The centre of the box rounded to a grid of about 1/16 of its half diagonal, a power of two: moving the
-// scene by a multiple of the grid moves the anchor by exactly as much, so that positions relative to it keep
-// every bit. The two odd constants keep decimal sizes off the points where rounding changes its mind.
+// The centre of the box rounded to a grid of about a millionth of its half diagonal, a power of two: moving
+// the scene by a multiple of the grid moves the anchor by exactly as much, so that positions relative to it
+// keep every bit; moved by anything else, its radius about the anchor stays the same to a millionth. The two
+// odd constants keep decimal sizes off the points where rounding changes its mind.
 Vec3 choose_anchor(const Bounds& bounds) {
   const double half_diagonal = length(bounds.high - bounds.low) / 2;
-  const double grid = std::exp2(std::floor(std::log2(std::max(half_diagonal, 1e-30) * 1.1371)) - 4);
+  const double grid = std::exp2(std::floor(std::log2(std::max(half_diagonal, 1e-30) * 1.1371)) - 20);
   const auto snap = [grid](double low, double high) {
     return grid * std::floor((low + high) / 2 / grid + 0.5 + 0.1237);
   };

@@ -124,17 +124,17 @@ class Summary {
     return rsm_.layers[texel / texels_per_layer_];
   }
 
+  // Of texels as near as rounding can tell the first: the mean of a few often lies between two.
   std::uint32_t nearest_texel(const TreeNode& node, Vec3 position) const {
+    constexpr double kTie = 1e-3;
     double least = std::numeric_limits<double>::infinity();
     std::uint32_t nearest = 0;
     for (std::uint32_t k = node.begin; k < node.end; ++k) {
-      const auto& at = tree_.texels[k].feature;
-      const double x = static_cast<double>(at[0]) - position.x, y = static_cast<double>(at[1]) - position.y,
-                   z = static_cast<double>(at[2]) - position.z;
-      const double squared = x * x + y * y + z * z;
-      if (squared >= least) continue;
-      least = squared;
-      nearest = tree_.texels[k].index;
+      const std::uint32_t texel = tree_.texels[k].index;
+      const Vec3 d = to_double(layer_of(texel).pyramid[texel % texels_per_layer_].position) - position;
+      if (dot(d, d) >= (1 - kTie) * least) continue;
+      least = dot(d, d);
+      nearest = texel;
     }
     return nearest;
   }

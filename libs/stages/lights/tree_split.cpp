@@ -11,6 +11,11 @@ namespace {
 // Length of a unit normal among the features, in root mean square distances of the lit positions from their
 // mean; found by measurement (docs/sampling.md).
 constexpr double kNormalScale = 2;
+// Steps in which features are counted, in that distance: wide enough that what rounding leaves of equal
+// coordinates is equal, fine enough for RSMs of 4096 texels a side.
+constexpr double kStep = 1.0 / 32768;
+// Spreads that differ by less are equal: shapes with symmetries are split the same way wherever they are.
+constexpr double kTie = 1e-3;
 
 // Moments of one feature over some texels, from a reference near them.
 struct Sums {
@@ -51,7 +56,7 @@ std::size_t widest_axis(std::span<const LitTexel> texels) {
   };
   std::size_t widest = 0;
   for (std::size_t axis = 1; axis < 6; ++axis)
-    if (spread(axis) > spread(widest)) widest = axis;
+    if (spread(axis) > (1 + kTie) * spread(widest)) widest = axis;
   return widest;
 }
 
@@ -82,7 +87,7 @@ std::size_t best_of_sorted(std::span<const LitTexel> texels, std::size_t axis, s
   for (std::size_t count = 1; count < texels.size(); ++count) {
     part.add(at(count - 1));
     const double spread = spread_of_both(all, part);
-    if (count % 3 != residue || spread >= least) continue;
+    if (count % 3 != residue || spread >= (1 - kTie) * least) continue;
     least = spread;
     best = count;
   }
@@ -98,10 +103,11 @@ std::size_t best_of_bins(std::span<const LitTexel> texels, std::size_t axis) {
   const float origin = low->feature[axis], extent = high->feature[axis] - origin;
   if (!(extent > 0)) return texels.size() / 2;
   constexpr std::size_t kBins = 32;
+  constexpr float kShift = 0.1237f;  // keeps regular grids of texels off the borders between bins
   std::array<Sums, kBins> bins;
   for (const LitTexel& texel : texels) {
     const float x = texel.feature[axis] - origin;
-    bins[std::min(static_cast<std::size_t>(x / extent * kBins), kBins - 1)].add(static_cast<double>(x));
+    bins[static_cast<std::size_t>(x / extent * (kBins - 2 * kShift) + kShift)].add(static_cast<double>(x));
   }
   Sums all, part;
   for (const Sums& bin : bins) all.add(bin);
@@ -110,7 +116,8 @@ std::size_t best_of_bins(std::span<const LitTexel> texels, std::size_t axis) {
   for (const Sums& bin : bins) {
     part.add(bin);
     const double spread = spread_of_both(all, part);
-    if (8 * std::min(part.count, all.count - part.count) < all.count || spread >= least) continue;
+    if (8 * std::min(part.count, all.count - part.count) < all.count || spread >= (1 - kTie) * least)
+      continue;
     least = spread;
     best = static_cast<std::size_t>(part.count);
   }
@@ -221,16 +228,29 @@ TexelTree lay_out(std::vector<LitTexel> texels, const std::vector<Split>& splits
   return tree;
 }
 
-void scale_normals(std::vector<LitTexel>& texels) {
+// Root mean square distance of the texels' positions from their mean, m.
+double position_spread(const std::vector<LitTexel>& texels) {
   std::array<Sums, 3> position;
   for (const LitTexel& texel : texels)
     for (std::size_t axis = 0; axis < 3; ++axis)
       position[axis].add(static_cast<double>(texel.feature[axis] - texels.front().feature[axis]));
   const double spread = position[0].spread() + position[1].spread() + position[2].spread();
-  const auto scale = static_cast<float>(
-      kNormalScale * std::sqrt(std::max(spread, 0.0) / static_cast<double>(texels.size())));
-  for (LitTexel& texel : texels)
-    for (std::size_t axis = 3; axis < 6; ++axis) texel.feature[axis] *= scale;
+  return std::sqrt(std::max(spread, 0.0) / static_cast<double>(texels.size()));
+}
+
+// Makes positions and normals comparable, and counts them in steps from the least of each, so that a scene
+// that is moved or scaled has the same features but for a few that rounding takes to the next step.
+void count_features(std::vector<LitTexel>& texels) {
+  const double distance = position_spread(texels);
+  if (!(distance > 0)) return;
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    const auto value = [axis](const LitTexel& texel) { return texel.feature[axis]; };
+    const double least = std::ranges::min(texels, {}, value).feature[axis];
+    const double steps = (axis < 3 ? 1 / distance : kNormalScale) / kStep;
+    for (LitTexel& texel : texels)
+      texel.feature[axis] =
+          static_cast<float>(std::round((static_cast<double>(texel.feature[axis]) - least) * steps));
+  }
 }
 
 }  // namespace
@@ -248,7 +268,7 @@ std::vector<LitTexel> lit_texels(const Rsm& rsm) {
                                                           : surface.shading_normal;
       lit.push_back({.feature = {y.x, y.y, y.z, n.x, n.y, n.z}, .index = layer * texels + texel});
     }
-  scale_normals(lit);
+  if (!lit.empty()) count_features(lit);
   return lit;
 }
 

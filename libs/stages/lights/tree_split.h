@@ -12,9 +12,9 @@ namespace vsgl {
 
 // A texel as the splits see it. `index` counts row by row over the RSM's layers.
 struct LitTexel {
-  std::array<float, 6>
-      feature;  // position, m; normal times a length that makes both comparable: the geometric one, under a
-                // specular lobe that of shading, whose spread no single lobe can stand for
+  std::array<float, 6> feature;  // position and normal, counted in steps that make both comparable; the
+                                 // normal is the geometric one, under a specular lobe that of shading, whose
+                                 // spread no single lobe can stand for
   std::uint32_t index;
 };
 
