@@ -192,8 +192,7 @@ class Plan:
         aimed = {} if error is None else {"error": error}
         def stage(tool, label, inputs, arguments=(), **further):
             key = tool.replace("-", "_")
-            options = {name: value for name, value in pipeline.get(key, {}).items() if name != "sphere_lights"} | further
-            return self.stage(tool, [scene, at(frame), *label], inputs, options, arguments, (*origin, key))
+            return self.stage(tool, [scene, at(frame), *label], inputs, pipeline.get(key, {}) | further, arguments, (*origin, key))
 
         def method(key, option="method"):
             return (pipeline.get(key) or {}).get(option)
@@ -204,7 +203,7 @@ class Plan:
         stages = {"rsm-bake": bake}
         count = {} if n is None else {"count": n}
         inputs = {"rsm": rsm}
-        if method("vsgl_gen", "sphere_lights"):
+        if method("vsgl_gen") == "sphere-lights":
             inputs = self.scene(scene)
         elif (method("vsgl_gen") or WITHOUT_DENSITY[0]) not in WITHOUT_DENSITY:
             stages["pdf-build"] = stage("pdf-build", [method("pdf_build")], {"rsm": rsm, "gbuffer": gbuffer})

@@ -31,6 +31,7 @@ void Renderer::take(scene::Scene scene) {
   if (baker_ && same_surfaces(scene, scene_)) {
     scene_.camera = scene.camera;
     scene_.environment = scene.environment;
+    scene_.sphere_lights = std::move(scene.sphere_lights);
     scene_.lights = std::move(scene.lights);
   } else {
     scene_ = std::move(scene);
@@ -43,7 +44,7 @@ void Renderer::take(scene::Scene scene) {
 
 void Renderer::bake(RenderedFrame& frame) {
   frame.gbuffer = baker_->gbuffer();
-  if (!lit_by_environment() || direct_) frame.rsm = baker_->rsm(pipeline_.rsm_bake.rsm);
+  if (source() == LightsSource::rsm || direct_) frame.rsm = baker_->rsm(pipeline_.rsm_bake.rsm);
 }
 
 const scene::Environment& Renderer::environment() {
@@ -61,11 +62,18 @@ const scene::Environment& Renderer::environment() {
 
 void Renderer::generate(RenderedFrame& frame) {
   pipeline_.vsgl_gen.previous = chains_.states.empty() ? nullptr : &chains_;
-  if (lit_by_environment())
-    frame.lights = generate_environment_lights(environment(), pipeline_.vsgl_gen, device_, report_);
-  else
-    frame.lights =
-        generate_lights(frame.rsm, frame.pdf ? &*frame.pdf : nullptr, pipeline_.vsgl_gen, &device_, report_);
+  frame.lights = [&] {
+    switch (source()) {
+      case LightsSource::environment:
+        return generate_environment_lights(environment(), pipeline_.vsgl_gen, device_, report_);
+      case LightsSource::sphere_lights:
+        return generate_sphere_lights(scene_, pipeline_.vsgl_gen, report_);
+      case LightsSource::rsm:
+        break;
+    }
+    return generate_lights(frame.rsm, frame.pdf ? &*frame.pdf : nullptr, pipeline_.vsgl_gen, &device_,
+                           report_);
+  }();
   chains_ = frame.lights.chains;
 }
 

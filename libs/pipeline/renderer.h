@@ -50,7 +50,7 @@ class Renderer {
   void run(RenderedFrame& frame, const char* tool, const std::function<void()>& work);
   void take(scene::Scene scene);
   void bake(RenderedFrame& frame);
-  bool lit_by_environment() const { return lights_method(pipeline_.vsgl_gen.method).of_environment; }
+  LightsSource source() const { return lights_method(pipeline_.vsgl_gen.method).source; }  // of the lights
   void generate(RenderedFrame& frame);
   // Lights, what they see, and the image: the frame's mean of the passes so far.
   void run_pass(RenderedFrame& frame, const Pass& pass);

@@ -48,9 +48,8 @@ struct Cone {
 
 class SphereEstimator {
  public:
-  SphereEstimator(const scene::Scene& scene, const std::vector<SphereLight>& spheres, Strategy strategy,
-                  std::uint64_t seed, int points)
-      : tracer_(scene), spheres_(spheres), strategy_(strategy), points_(seed, points) {}
+  SphereEstimator(const scene::Scene& scene, Strategy strategy, std::uint64_t seed, int points)
+      : tracer_(scene), spheres_(scene.sphere_lights), strategy_(strategy), points_(seed, points) {}
 
   // Mean over one pass's points.
   Estimate estimate(const Receiver& x, std::uint32_t pixel, std::uint32_t pass) const {
@@ -110,17 +109,19 @@ Reference to_reference(const Accumulator& sums, const GBuffer& gbuffer, const Re
 
 }  // namespace
 
-Reference trace_sphere_lights(const scene::Scene& scene, const std::vector<SphereLight>& spheres,
-                              const GBuffer& gbuffer, const ReferenceParams& params, Report& report) {
+Reference trace_sphere_lights(const scene::Scene& scene, const GBuffer& gbuffer,
+                              const ReferenceParams& params, Report& report) {
   if (params.samples < 1 || params.samples > kMaxSamples)
     throw Error(ErrorCode::out_of_range,
                 "samples: " + std::to_string(params.samples) + " is not within 1..16777216");
   if (!(gbuffer.anchor == scene.anchor))
     throw Error(ErrorCode::invalid_data,
                 "the G-buffer has another anchor than the scene; bake it from the same scene file");
+  if (scene.sphere_lights.empty())
+    throw Error(ErrorCode::bad_light, "sphere_lights: the scene has none; add one under \"sphere_lights\"");
   const PhaseTimer timer(report, "sphere lights");
   const int points = (params.samples + kPasses - 1) / kPasses;
-  const SphereEstimator estimator(scene, spheres, strategy_named(params.strategy), params.seed, points);
+  const SphereEstimator estimator(scene, strategy_named(params.strategy), params.seed, points);
   Accumulator sums(gbuffer.width, gbuffer.height);
 #pragma omp parallel for schedule(dynamic, 32)
   for (std::size_t i = 0; i < gbuffer.pixels.size(); ++i) {
@@ -130,7 +131,7 @@ Reference trace_sphere_lights(const scene::Scene& scene, const std::vector<Spher
     for (int pass = 0; pass < kPasses; ++pass)
       sums.add(i, estimator.estimate(x, pixel, static_cast<std::uint32_t>(pass)), pass + 1);
   }
-  report.count("sphere_lights", spheres.size());
+  report.count("sphere_lights", scene.sphere_lights.size());
   return to_reference(sums, gbuffer, params, points);
 }
 

@@ -10,6 +10,7 @@
 #include "math/light_source.h"
 #include "math/vec.h"
 #include "scene/environment.h"
+#include "scene/sphere_light.h"
 
 namespace vsgl::scene {
 
@@ -82,6 +83,7 @@ struct Scene {
   // are the world's; a directional light's position is the anchor (the RSM stage frames both).
   std::vector<LightSource> lights;
   std::optional<EnvironmentSpec> environment;  // read by those who light the scene with it
+  std::vector<SphereLight> sphere_lights;      // relative to the anchor
   std::vector<std::string> warnings;  // blended materials taken as cut-outs, and the like
 
   std::size_t triangle_count() const;

@@ -220,6 +220,8 @@ Scene SceneSequence::at(int frame) const {
   scene.instances = s.instances(nodes);
   scene.camera = choose_camera(spec, nodes, scene.anchor, s.json_path, scene.warnings);
   scene.environment = spec.environment;
+  scene.sphere_lights = spec.sphere_lights;
+  for (SphereLight& sphere : scene.sphere_lights) sphere.position = sphere.position - scene.anchor;
   scene.lights = collect_lights(spec, nodes, scene.anchor, scene.radius, s.json_path, scene.warnings);
   return scene;
 }

@@ -283,8 +283,8 @@ SceneSpec read_scene_spec(const JsonValue& root, const fs::path& folder) {
   if (const auto resolution = root.find("resolution")) read_resolution(*resolution, spec);
   if (const auto anchor = root.find("anchor")) spec.anchor = read_vec3(*anchor);
   if (const auto efficacy = root.find("lumens_per_watt")) spec.lumens_per_watt = efficacy->number(1e-3, 1e6);
-  read_sphere_lights(root, {});  // checked here, kept by those who use them
-  root.find("animation");        // a key that is known: class Animation reads it
+  spec.sphere_lights = read_sphere_lights(root);
+  root.find("animation");  // a key that is known: class Animation reads it
   root.finish();
   return spec;
 }

@@ -39,6 +39,7 @@ struct SceneSpec {
   std::vector<MeshSpec> meshes;
   std::vector<MaterialOverride> materials;  // "*" first
   std::optional<std::vector<LightSource>> lights;
+  std::vector<SphereLight> sphere_lights;
   std::optional<EnvironmentSpec> environment;
   std::optional<Camera> camera;  // tan_x still unset
   std::optional<std::string> gltf_camera;

@@ -1,6 +1,6 @@
 #include "scene/sphere_light.h"
 
-#include "base/error.h"
+#include "base/strict_json.h"
 
 namespace vsgl::scene {
 namespace {
@@ -12,11 +12,11 @@ Vec3 vector_of(const std::array<double, 3>& numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-SphereLight read_sphere_light(const JsonValue& object, std::size_t index, Vec3 anchor) {
+SphereLight read_sphere_light(const JsonValue& object, std::size_t index) {
   SphereLight light;
   const auto name = object.find("name");
   light.name = name ? name->string() : "sphere" + std::to_string(index);
-  light.position = vector_of(object.at("position").numbers<3>()) - anchor;
+  light.position = vector_of(object.at("position").numbers<3>());
   light.radius = object.at("radius_m").number(kMinRadius, kMaxRadius);
   const JsonValue radiance = object.at("radiance_w_m2_sr");
   if (radiance.raw().is_array())
@@ -29,19 +29,10 @@ SphereLight read_sphere_light(const JsonValue& object, std::size_t index, Vec3 a
 
 }  // namespace
 
-std::vector<SphereLight> read_sphere_lights(const JsonValue& root, Vec3 anchor) {
+std::vector<SphereLight> read_sphere_lights(const JsonValue& root) {
   std::vector<SphereLight> out;
   if (const auto lights = root.find("sphere_lights"))
-    for (const JsonValue& light : lights->array())
-      out.push_back(read_sphere_light(light, out.size(), anchor));
-  return out;
-}
-
-std::vector<SphereLight> load_sphere_lights(const std::filesystem::path& json_path, Vec3 anchor) {
-  std::vector<SphereLight> out = read_sphere_lights(JsonValue::parse_file(json_path), anchor);
-  if (out.empty())
-    throw Error(ErrorCode::bad_light,
-                json_path.string() + ": the scene has no sphere light; add one under \"sphere_lights\"");
+    for (const JsonValue& light : lights->array()) out.push_back(read_sphere_light(light, out.size()));
   return out;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "base/strict_json.h"
 #include "math/vec.h"
+
+namespace vsgl {
+class JsonValue;
+}
 
 namespace vsgl::scene {
 
@@ -13,14 +15,13 @@ namespace vsgl::scene {
 // itself; it lights surfaces at first hand alone.
 struct SphereLight {
   std::string name;
-  Vec3 position;           // relative to the anchor, m
+  Vec3 position;           // m
   double radius = 1;       // m
   Vec3 radiance{1, 1, 1};  // W/(m^2 sr)
 };
 
-// The entries of "sphere_lights" in a scene JSON; none where it has none. Throws json_*.
-std::vector<SphereLight> read_sphere_lights(const JsonValue& root, Vec3 anchor);
-// Those of a file, at least one. Throws json_*, file_not_found, bad_light.
-std::vector<SphereLight> load_sphere_lights(const std::filesystem::path& json_path, Vec3 anchor);
+// The entries of "sphere_lights" in a scene JSON, in world coordinates; none where it has none. Throws
+// json_*.
+std::vector<SphereLight> read_sphere_lights(const JsonValue& root);
 
 }  // namespace vsgl::scene

@@ -8,7 +8,7 @@
 #include "../unit/expect_error.h"
 #include "reference/sphere_lights.h"
 #include "reference_scenes.h"
-#include "stages/lights/sphere_lights.h"
+#include "stages/lights/lights.h"
 #include "stages/shading/shading.h"
 
 namespace vsgl::reference {
@@ -30,6 +30,7 @@ Plane plane(const scene::Material& material, Vec3 camera, const std::vector<Vec3
   Plane out;
   add_parallelogram(out.scene, {-20, -20, 0}, {40, 0, 0}, {0, 40, 0}, material);
   out.scene.radius = 30;
+  out.scene.sphere_lights = {{"lamp", kCentre, kRadius, kRadiance}};
   std::vector<interop::Surface> points;
   for (const Vec3 position : at) points.push_back(visible_point(position, {0, 0, 1}, out.scene.materials[0]));
   out.gbuffer = row_of(out.scene, camera, points);
@@ -41,7 +42,7 @@ Reference trace(const Plane& p, const std::string& strategy, int samples) {
   ReferenceParams params;
   params.strategy = strategy;
   params.samples = samples;
-  return trace_sphere_lights(p.scene, {{"lamp", kCentre, kRadius, kRadiance}}, p.gbuffer, params, report);
+  return trace_sphere_lights(p.scene, p.gbuffer, params, report);
 }
 
 // A sphere wholly above the horizon: E = pi L (radius / d)^2 cos.
@@ -74,8 +75,7 @@ gpu::Device& device() {
 
 Indirect shaded(const Plane& p, const ShadingParams& params, const Visibility* visibility = nullptr) {
   Report report;
-  const Lights lights =
-      sphere_lights({{"lamp", kCentre, kRadius, kRadiance}}, p.scene.anchor, p.scene.radius);
+  const Lights lights = generate_sphere_lights(p.scene, {.method = "sphere-lights"}, report);
   return shade(p.gbuffer, lights, visibility, params, device(), report);
 }
 
@@ -116,6 +116,19 @@ TEST(SphereLight, FluenceIsThatOfTheSphere) {
   const Indirect image = shaded(p, {.light_model = "vsgl", .cbr = 0});
   for (std::size_t i = 0; i < places.size(); ++i)
     EXPECT_NEAR(image.diffuse[kSpacing * i].x / truth.radiance.diffuse[kSpacing * i].x, 1, 0.02) << i;
+}
+
+TEST(SphereLight, IsOfTheSceneAlone) {
+  Plane p = plane(matte({0.5, 0.5, 0.5}), {3, 0, 2}, {{0, 0, 0}});
+  Report report;
+  expect_error(ErrorCode::bad_value, {"tree", "sphere-lights"},
+               [&] { generate_sphere_lights(p.scene, {.method = "tree"}, report); });
+  expect_error(ErrorCode::missing_option, {"sphere-lights"},
+               [&] { generate_lights(Rsm{}, nullptr, {.method = "sphere-lights"}, nullptr, report); });
+  p.scene.sphere_lights.clear();
+  expect_error(ErrorCode::bad_light, {"sphere_lights"},
+               [&] { generate_sphere_lights(p.scene, {.method = "sphere-lights"}, report); });
+  expect_error(ErrorCode::bad_light, {"sphere_lights"}, [&] { trace(p, "mis", 16); });
 }
 
 TEST(SphereLight, IsRefusedWhereItHasNoSurface) {

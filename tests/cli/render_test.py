@@ -184,6 +184,26 @@ class RenderTest:
         run([self.bin / "render", "cornell-glossy.json", "--pipeline", "pipeline.json", "-o", "dark.exr"], cwd=self.folder).expect_error(
             2, "E2004: .*environment")
 
+    def check_sphere_lights(self):
+        """The scene's sphere lights light it as with the tools; the RSM is made for direct light alone."""
+        self.tool("scene-gen", "sphere-light", "--resolution", "32x18", "-o", "spheres.json")
+        document = json.loads((ROOT / "configs/pipelines/sphere-lights.json").read_text())
+        (self.folder / "spheres").mkdir()
+        self.render("spheres", document, "spheres/image.exr", "--keep", "spheres")
+        made = sorted(path.name for path in (self.folder / "spheres").iterdir())
+        require(made == ["gbuffer.exr", "image.exr", "lights.exr"], f"kept: {made}")
+        self.tool("rsm-bake", "spheres.json", "--gbuffer", "spheres-gbuffer.exr")
+        self.tool("vsgl-gen", "--method", "sphere-lights", "--sphere-lights", "spheres.json", "-o", "spheres-lights.exr")
+        self.tool("shade", "--light-model", "vsgl", "--cbr", "0", "--gbuffer", "spheres-gbuffer.exr", "--lights", "spheres-lights.exr",
+                  "-o", "spheres-image.exr")
+        for name in made:
+            self.require_same(f"spheres/{name}", f"spheres-{name}")
+        (self.folder / "pipeline.json").write_text(json.dumps(document))
+        run([self.bin / "render", "cornell-glossy.json", "--pipeline", "pipeline.json", "-o", "dark.exr"], cwd=self.folder).expect_error(
+            3, "E3020: .*sphere_lights")
+        run([self.bin / "vsgl-gen", "--sphere-lights", "spheres.json", "-o", "dark.exr"], cwd=self.folder).expect_error(
+            2, "E2002: .*sphere-lights")
+
     def check_frames(self):
         self.tool("scene-gen", "cornell-glossy", "--resolution", "48x32", "--animate", "object", "--frames", "3", "-o", "moving.json")
         for name, document, kept in (("vsgl", pipeline({}), KEPT), ("tree", pipeline(TREE), [name for name in KEPT if name != "pdf.exr"])):
@@ -251,7 +271,7 @@ class RenderTest:
             require(methods, f"{tool} lists no methods")
             key = "light_model" if tool == "shade" else "method"
             for method in methods:
-                if method == "environment":  # see check_environment
+                if method in ("environment", "sphere-lights"):  # see check_environment, check_sphere_lights
                     continue
                 on_tree = method == "tree" or (stage == "ismap" and method not in FOR_LISTS)
                 base = TREE if on_tree else {}
@@ -317,7 +337,7 @@ def main():
         test = RenderTest(bin_dir, pathlib.Path(temporary))
         checks = [(f"{scene}, {name}: the tools' artifacts", lambda s=scene, n=name: test.check_same_as_tools(s, n))
                   for name in PIPELINES for scene in SCENES if scene == "cornell-glossy" or name in ON_BOTH]
-        checks += [("an environment", test.check_environment), ("frames of a sequence", test.check_frames), ("Markov chains", test.check_chains), ("passes", test.check_passes), ("the same bytes on two threads", test.check_threads),
+        checks += [("an environment", test.check_environment), ("sphere lights", test.check_sphere_lights), ("frames of a sequence", test.check_frames), ("Markov chains", test.check_chains), ("passes", test.check_passes), ("the same bytes on two threads", test.check_threads),
                    ("every method", test.check_methods), ("defaults", test.check_defaults), ("schema", test.check_schema),
                    ("report", test.check_report)]
         return run_checks(checks)

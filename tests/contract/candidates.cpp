@@ -85,10 +85,24 @@ scene::Environment even_environment() {
   return {32, 16, std::vector<Vec3>(32 * 16, Vec3{1, 1, 1} * radiance), {}};
 }
 
+// Spheres whose power adds up to that which the RSM reflects.
+scene::Scene scene_of_spheres() {
+  constexpr int count = 128;
+  constexpr double radius = 0.1;
+  const double sphere_area = 4 * std::numbers::pi * radius * radius;
+  const Vec3 radiance = Vec3{1, 1, 1} * (reflected_power(rsm()) / (count * std::numbers::pi * sphere_area));
+  scene::Scene scene;
+  for (int i = 0; i < count; ++i) scene.sphere_lights.push_back({"", {0.01 * i, 1, 0}, radius, radiance});
+  return scene;
+}
+
 Lights sample_lights(gpu::Device& device, const std::string& method) {
   Report report;
-  if (lights_method(method).of_environment)
+  const LightsSource source = lights_method(method).source;
+  if (source == LightsSource::environment)
     return generate_environment_lights(even_environment(), {.method = method, .count = 128}, device, report);
+  if (source == LightsSource::sphere_lights)
+    return generate_sphere_lights(scene_of_spheres(), {.method = method}, report);
   static const Pdf pdf = flux_pdf(rsm());
   return generate_lights(rsm(), &pdf, {.method = method, .count = 128}, &device, report);
 }

@@ -222,12 +222,12 @@ class Sharing(Files):
         self.assertTrue(all(part["rsm_bake"] == {"resolution": "64x36"} for part in options))
 
     def test_sphere_lights_are_of_the_scene(self):
-        pipeline = {"vsgl_gen": {"sphere_lights": True}, "ismap": None}
+        pipeline = {"vsgl_gen": {"method": "sphere-lights"}, "ismap": None}
         self.experiment |= {"variants": {"spheres": {"pipeline": pipeline}}, "decompositions": {}}
         for name, stage in self.plan().stages.items():
             if name.startswith("vsgl-gen/"):
                 self.assertEqual(set(stage["inputs"]) - {"meshes", "after"}, {"scene", "tool", "parameters"})
-                self.assertEqual(stage["options"], {})
+                self.assertEqual(stage["options"], {"method": "sphere-lights"})
 
     def test_scene_files_are_inputs(self):
         bake = next(stage for name, stage in self.plan().stages.items() if name.startswith("rsm-bake/hall"))

@@ -13,6 +13,7 @@
 #include "base/report.h"
 #include "gpu/device.h"
 #include "scene/environment.h"
+#include "scene/scene.h"
 
 namespace vsgl {
 
@@ -40,7 +41,7 @@ struct LightsParams {
 };
 
 // Lights of `rsm` sampled by `pdf`. Density and device may be null where the method does not need them (see
-// LightsMethod); the method is not of an environment. Samples without power give no light; the others keep the samples' order. The same inputs
+// LightsMethod); the method's source is an RSM. Samples without power give no light; the others keep the samples' order. The same inputs
 // give the same bytes for any number of threads. Throws bad_value, out_of_range, missing_option (no density),
 // wrong_size when the density is of another RSM, device_limit.
 Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& params, gpu::Device* device,
@@ -51,6 +52,13 @@ Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& param
 // bad_value, out_of_range, device_limit.
 Lights generate_environment_lights(const scene::Environment& environment, const LightsParams& params,
                                    gpu::Device& device, Report& report);
+
+// [Tokuyoshi 2014s, A] The scene's sphere lights, one SG each as seen from anywhere: Gaussian footprints of
+// variance radius^2 / 4 per axis, the second moment of the disk that a sphere shows, which send power
+// 4 pi^2 radius^2 radiance evenly in all directions; `params` names the method "sphere-lights". No surface
+// belongs to them, so that `shade` takes them with light model vsgl alone. Throws bad_value, out_of_range,
+// bad_light (the scene has none).
+Lights generate_sphere_lights(const scene::Scene& scene, const LightsParams& params, Report& report);
 
 // What lights.json holds (configs/schema/lights.schema.json): parameters, statistics and, with `dump`, the
 // lights.
@@ -65,6 +73,9 @@ struct LightSet {
   Chains chains = {};
 };
 
+// What lights are made of. Each has a function of its own.
+enum class LightsSource { rsm, environment, sphere_lights };
+
 // A way to generate lights. `run` may assume checked parameters and, where it needs a density, one that is
 // positive somewhere; lights without power may be among a list.
 struct LightsMethod {
@@ -73,7 +84,7 @@ struct LightsMethod {
   bool needs_pdf = true, needs_device = true;
   LightSet (*run)(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*, Report&) = nullptr;
   bool has_passes = false;      // samples anew, for smaller lights, in each pass of progressive rendering
-  bool of_environment = false;  // generate_environment_lights() runs it; `run` is null
+  LightsSource source = LightsSource::rsm;  // of others `run` is null
 };
 const std::vector<LightsMethod>& lights_methods();
 // The row of that name. Throws bad_value, listing those that are there.

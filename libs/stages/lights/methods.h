@@ -30,6 +30,8 @@ LightSet generate_tree(const Rsm&, const Pdf*, const LightsParams&, gpu::Device*
 // The lights of an environment that have power, in the samples' order.
 std::vector<interop::Light> sample_environment(const scene::Environment&, const LightsParams&, gpu::Device&,
                                                Report&);
+// A light a sphere.
+std::vector<interop::Light> make_sphere_lights(const std::vector<scene::SphereLight>&);
 // An environment's radiance integrated over all directions, W/m^2.
 Vec3 environment_power(const scene::Environment&);
 

@@ -69,6 +69,19 @@ void check_density(const Rsm& rsm, const Pdf& pdf) {
   if (!same) throw Error(ErrorCode::missing_part, "density: its layers are not those of the RSM" + remedy);
 }
 
+// That lights of the method are made of what is given.
+void check_source(const LightsMethod& method, LightsSource given) {
+  if (method.source == given) return;
+  const auto name_of = [](LightsSource source) {
+    return source == LightsSource::environment ? "environment" : "sphere-lights";
+  };
+  if (given == LightsSource::rsm)
+    throw Error(ErrorCode::missing_option,
+                "method " + method.name + " makes no lights of an RSM; give --" + name_of(method.source));
+  throw Error(ErrorCode::bad_value, "method: \"" + method.name + "\" is of another source; choose " +
+                                        name_of(given) + ", or give what it makes lights of");
+}
+
 bool is_dark(const Pdf& pdf) {
   return std::all_of(pdf.layers.begin(), pdf.layers.end(),
                      [](const Pdf::Layer& layer) { return layer.pyramid.back() <= 0; });
@@ -117,7 +130,13 @@ const std::vector<LightsMethod>& lights_methods() {
        .summary = "lights of an environment map, infinitely far away; kernels as of fis-2016",
        .needs_pdf = false,
        .run = nullptr,
-       .of_environment = true},
+       .source = LightsSource::environment},
+      {.name = "sphere-lights",
+       .summary = "the scene's sphere lights, a light each, which light it at first hand",
+       .needs_pdf = false,
+       .needs_device = false,
+       .run = nullptr,
+       .source = LightsSource::sphere_lights},
   };
   return methods;
 }
@@ -130,9 +149,7 @@ Lights generate_lights(const Rsm& rsm, const Pdf* pdf, const LightsParams& param
                        Report& report) {
   const LightsMethod& method = lights_method(params.method);
   check_params(method, params);
-  if (method.of_environment)
-    throw Error(ErrorCode::missing_option,
-                "environment: method " + method.name + " lights a scene by a map; give --environment map.exr");
+  check_source(method, LightsSource::rsm);
   if (method.needs_pdf && !pdf)
     throw Error(ErrorCode::missing_option, "pdf: method " + method.name + " needs one; give --pdf pdf.exr");
   if (method.needs_device && !device)
@@ -162,9 +179,7 @@ Lights generate_environment_lights(const scene::Environment& environment, const 
                                    gpu::Device& device, Report& report) {
   const LightsMethod& method = lights_method(params.method);
   check_params(method, params);
-  if (!method.of_environment)
-    throw Error(ErrorCode::bad_value,
-                "method: \"" + method.name + "\" takes no environment; choose environment, or give an RSM");
+  check_source(method, LightsSource::environment);
   Lights out;
   out.kind = LightsKind::environment;
   out.method = method.name;
@@ -172,6 +187,23 @@ Lights generate_environment_lights(const scene::Environment& environment, const 
   out.lights = sample_environment(environment, params, device, report);
   report.count("lights", out.lights.size());
   report.count("dropped", static_cast<std::size_t>(out.requested) - out.lights.size());
+  return out;
+}
+
+Lights generate_sphere_lights(const scene::Scene& scene, const LightsParams& params, Report& report) {
+  const LightsMethod& method = lights_method(params.method);
+  check_params(method, params);
+  check_source(method, LightsSource::sphere_lights);
+  if (scene.sphere_lights.empty())
+    throw Error(ErrorCode::bad_light,
+                "sphere_lights: the scene has none; add one under \"sphere_lights\", or choose another method");
+  Lights out;
+  out.method = method.name;
+  out.anchor = scene.anchor;
+  out.scene_radius = scene.radius;
+  out.lights = make_sphere_lights(scene.sphere_lights);
+  out.requested = static_cast<int>(out.lights.size());
+  report.count("lights", out.lights.size());
   return out;
 }
 

@@ -1,8 +1,7 @@
-#include "stages/lights/sphere_lights.h"
-
 #include <numbers>
 
 #include "math/interop_vec.h"
+#include "stages/lights/methods.h"
 
 namespace vsgl {
 namespace {
@@ -22,14 +21,10 @@ interop::Light light_of(const scene::SphereLight& sphere) {
 
 }  // namespace
 
-Lights sphere_lights(const std::vector<scene::SphereLight>& spheres, Vec3 anchor, double scene_radius) {
-  Lights out;
-  out.method = kSphereLights;
-  out.anchor = anchor;
-  out.scene_radius = scene_radius;
-  out.requested = static_cast<int>(spheres.size());
-  for (const scene::SphereLight& sphere : spheres) out.lights.push_back(light_of(sphere));
-  return out;
+std::vector<interop::Light> make_sphere_lights(const std::vector<scene::SphereLight>& spheres) {
+  std::vector<interop::Light> lights;
+  for (const scene::SphereLight& sphere : spheres) lights.push_back(light_of(sphere));
+  return lights;
 }
 
 }  // namespace vsgl

@@ -180,7 +180,7 @@ TEST(Lights, MoreSamplesThanTexels) {
 TEST(Lights, SparseRsm) {
   const Rsm rsm = sparse_room();
   for (const LightsMethod& method : lights_methods()) {
-    if (method.of_environment) continue;
+    if (method.source != LightsSource::rsm) continue;
     LightsParams params;
     params.method = method.name;
     const Lights lights = generate(rsm, test::flux_pdf(rsm), params);
@@ -196,7 +196,7 @@ TEST(Lights, NothingEmits) {
   rsm.layers[0].pyramid = test::moment_pyramid(std::vector<DoubleMoments>(256), 16);
   const Pdf pdf = test::make_pdf(rsm, {std::vector<double>(256)});
   for (const LightsMethod& method : lights_methods()) {
-    if (method.of_environment) continue;
+    if (method.source != LightsSource::rsm) continue;
     LightsParams params;
     params.method = method.name;
     Report report;
@@ -223,7 +223,7 @@ TEST(Lights, SamplesWithoutPowerAreDroppedInOrder) {
 
 TEST(Lights, SameBytesTwice) {
   for (const LightsMethod& method : lights_methods()) {
-    if (method.of_environment) continue;
+    if (method.source != LightsSource::rsm) continue;
     LightsParams params;
     params.method = method.name;
     params.count = 5000;

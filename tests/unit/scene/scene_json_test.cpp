@@ -149,8 +149,9 @@ TEST_F(SceneJson, SphereLights) {
     out.merge_patch(changes);
     return Json{{"sphere_lights", Json::array({out})}};
   };
-  folder.load(spheres({{"name", "lamp"}}));
-  const auto lights = scene::load_sphere_lights(folder / "scene.json", {1, 0, 0});
+  Json lamp = spheres({{"name", "lamp"}});
+  lamp["anchor"] = {1, 0, 0};
+  const auto lights = folder.load(lamp).sphere_lights;
   ASSERT_EQ(lights.size(), 1u);
   EXPECT_EQ(lights[0].name, "lamp");
   EXPECT_EQ(lights[0].radius, 0.5);
