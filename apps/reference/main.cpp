@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "base/tool.h"
+#include "reference/environment.h"
 #include "reference/options.h"
 #include "reference/sphere_lights.h"
 #include "scene/scene_input.h"
@@ -13,11 +14,32 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   vsgl::scene::SceneInput scene;
-  fs::path gbuffer, output;
+  fs::path gbuffer, proxies, output;
   std::string resolution;
-  bool sphere_lights = false;
+  bool sphere_lights = false, environment = false;
   vsgl::reference::ReferenceParams params;
+  vsgl::reference::EnvironmentParams environment_params;
 };
+
+CLI::Option* declare_environment(vsgl::Tool& tool, Arguments& a) {
+  CLI::App& app = tool.app();
+  CLI::Option* environment =
+      app.add_flag("--environment", a.environment,
+                   "light of the scene's environment, direct and after one bounce, in place of its lights'");
+  CLI::Option* proxies =
+      tool.input("--proxies", a.proxies, "spheres of proxy-fit, for --blockers")->needs(environment);
+  app.add_option(
+         "--blockers", a.environment_params.blockers,
+         "environment: what hides and reflects its light: scene; meshes: those that proxies stand for; "
+         "spheres: the proxies themselves")
+      ->check(CLI::IsMember({"scene", "meshes", "spheres"}))
+      ->needs(proxies);
+  app.add_option("--bounce", a.environment_params.bounce,
+                 "environment: light on what reflects it: shadowed, or unshadowed as proxy-gi has it")
+      ->check(CLI::IsMember({"shadowed", "unshadowed"}))
+      ->needs(environment);
+  return environment;
+}
 
 void declare(vsgl::Tool& tool, Arguments& a) {
   CLI::App& app = tool.app();
@@ -32,11 +54,14 @@ void declare(vsgl::Tool& tool, Arguments& a) {
   CLI::Option* spheres =
       app.add_flag("--sphere-lights", a.sphere_lights,
                    "direct light of the scene's sphere lights in place of one-bounce light");
-  for (const char* limit : {"--target-error", "--time-budget"}) app.get_option(limit)->excludes(spheres);
+  CLI::Option* environment = declare_environment(tool, a);
+  environment->excludes(spheres);
+  for (const char* limit : {"--target-error", "--time-budget"})
+    app.get_option(limit)->excludes(spheres)->excludes(environment);
   CLI::Option* checkpoint = tool.state(
       "--checkpoint", a.params.checkpoint,
       "file to save the work in and to take it up again from; stays when all is done, for more --samples");
-  checkpoint->excludes(spheres);
+  checkpoint->excludes(spheres)->excludes(environment);
   tool.keep_from_provenance(app.add_option("--checkpoint-interval", a.params.checkpoint_interval_s,
                                            "seconds from one saving to the next")
                                 ->check(CLI::NonNegativeNumber));
@@ -53,9 +78,28 @@ vsgl::GBuffer bake(const vsgl::Tool& tool, vsgl::scene::Scene& scene, const std:
   return vsgl::bake_gbuffer(scene, device, report);
 }
 
+vsgl::Reference trace_environment(const Arguments& a, const vsgl::scene::Scene& scene,
+                                  const vsgl::GBuffer& gbuffer, vsgl::Report& report) {
+  if (!scene.environment)
+    throw vsgl::Error(
+        vsgl::ErrorCode::bad_light,
+        a.scene.path.string() + ": the scene has no environment; add one under \"environment\"");
+  vsgl::reference::EnvironmentParams params = a.environment_params;
+  params.samples = a.params.samples;
+  params.seed = a.params.seed;
+  std::optional<vsgl::Proxies> proxies;
+  if (!a.proxies.empty()) proxies = vsgl::read_proxies(a.proxies);
+  return vsgl::reference::trace_environment(scene, vsgl::scene::read_environment(*scene.environment),
+                                            proxies ? &*proxies : nullptr, gbuffer, params, report);
+}
+
 vsgl::Reference trace(const Arguments& a, const vsgl::scene::Scene& scene, const vsgl::GBuffer& gbuffer,
                       vsgl::Report& report) {
-  if (a.sphere_lights) return vsgl::reference::trace_sphere_lights(scene, gbuffer, a.params, report);
+  if (a.sphere_lights) {
+    const auto spheres = vsgl::scene::load_sphere_lights(a.scene.path, scene.anchor);
+    return vsgl::reference::trace_sphere_lights(scene, spheres, gbuffer, a.params, report);
+  }
+  if (a.environment) return trace_environment(a, scene, gbuffer, report);
   constexpr std::size_t kSteps = 1000;
   vsgl::Progress bar("reference", kSteps);
   return vsgl::reference::trace_reference(scene, gbuffer, a.params, report, [&](double done) {

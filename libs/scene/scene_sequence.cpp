@@ -30,7 +30,7 @@ struct Bounds {
 // odd constants keep decimal sizes off the points where rounding changes its mind.
 Vec3 choose_anchor(const Bounds& bounds) {
   const double half_diagonal = length(bounds.high - bounds.low) / 2;
-  const double grid = std::exp2(std::floor(std::log2(std::max(half_diagonal, 1e-30) * 1.1371)) - 20);
+  const double grid = std::exp2(std::floor(std::log2(std::max(half_diagonal, 1e-30) * 1.1371)) - 4);
   const auto snap = [grid](double low, double high) {
     return grid * std::floor((low + high) / 2 / grid + 0.5 + 0.1237);
   };
@@ -181,15 +181,25 @@ struct SceneSequence::State {
     }
   }
 
-  std::vector<Instance> instances(const std::vector<PlacedNode>& nodes) const {
-    std::vector<Instance> out;
+  // Calls `visit` with each part that has triangles, and its instance.
+  template <class Visit>
+  void for_each_instance(const std::vector<PlacedNode>& nodes, Visit visit) const {
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const auto& [node, mesh, material] = parts[i];
       const bool moved = !is_equal(nodes[node].transform, first_nodes[node].transform);
       Instance instance = moved ? make_instance(nodes[node], *mesh, material) : first_instances[i];
-      if (!instance.indices.empty()) out.push_back(std::move(instance));
+      if (!instance.indices.empty()) visit(parts[i], std::move(instance));
     }
-    return out;
+  }
+
+  std::vector<PlacedNode> nodes_at(int frame) const {
+    const int frames = animation.frames();
+    if (frame < 0 || frame >= frames) {
+      throw Error(ErrorCode::out_of_range, json_path.string() + ": there is no frame " +
+                                               std::to_string(frame) + "; the scene has the frames 0 to " +
+                                               std::to_string(frames - 1));
+    }
+    return place_nodes(specs[frame], files, common.anchor);
   }
 };
 
@@ -209,21 +219,27 @@ double SceneSequence::frame_rate_hz() const {
 
 Scene SceneSequence::at(int frame) const {
   const State& s = *state_;
-  if (frame < 0 || frame >= frames()) {
-    throw Error(ErrorCode::out_of_range, s.json_path.string() + ": there is no frame " +
-                                             std::to_string(frame) + "; the scene has the frames 0 to " +
-                                             std::to_string(frames() - 1));
-  }
+  const auto nodes = s.nodes_at(frame);
   const SceneSpec& spec = s.specs[frame];
-  const auto nodes = place_nodes(spec, s.files, s.common.anchor);
   Scene scene = s.common;
-  scene.instances = s.instances(nodes);
+  s.for_each_instance(nodes, [&](const State::Part&, Instance&& instance) {
+    scene.instances.push_back(std::move(instance));
+  });
   scene.camera = choose_camera(spec, nodes, scene.anchor, s.json_path, scene.warnings);
   scene.environment = spec.environment;
   scene.sphere_lights = spec.sphere_lights;
   for (SphereLight& sphere : scene.sphere_lights) sphere.position = sphere.position - scene.anchor;
   scene.lights = collect_lights(spec, nodes, scene.anchor, scene.radius, s.json_path, scene.warnings);
   return scene;
+}
+
+std::vector<InstanceOrigin> SceneSequence::origins(int frame) const {
+  const auto nodes = state_->nodes_at(frame);
+  std::vector<InstanceOrigin> out;
+  state_->for_each_instance(nodes, [&](const State::Part& part, const Instance&) {
+    out.push_back({part.mesh, nodes[part.node].transform});
+  });
+  return out;
 }
 
 }  // namespace vsgl::scene

@@ -2,10 +2,19 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "scene/scene.h"
 
 namespace vsgl::scene {
+
+struct Mesh;
+
+// What an instance of a scene was made of.
+struct InstanceOrigin {
+  const Mesh* mesh;  // in its own coordinates; lives as long as the sequence
+  Mat4 transform;    // to those of the scene, relative to its anchor
+};
 
 // The frames of an animated scene; a scene without animation has the frame 0 only. Mesh files and textures
 // are read once. Anchor and radius are the same for all frames, so that their artifacts can be compared: the
@@ -24,6 +33,8 @@ class SceneSequence {
   // Throws out_of_range unless 0 <= frame < frames(), and mesh_invalid, bad_camera, bad_light. Any number of
   // threads may call it at once.
   Scene at(int frame) const;
+  // Of each instance of at(frame), in their order.
+  std::vector<InstanceOrigin> origins(int frame) const;
 
  private:
   struct State;

@@ -11,11 +11,18 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double kFloor = 0.02;  // of the largest eigenvalue
 
+double off_diagonal(const Matrix& a) {
+  double sum = 0;
+  for (int i = 0; i < kCoefficients; ++i)
+    for (int j = 0; j < i; ++j) sum += a[i][j] * a[i][j];
+  return sum;
+}
+
 // Eigenvectors (columns of `vectors`) and eigenvalues (diagonal of `a`) by Jacobi's rotations.
 void diagonalise(Matrix& a, Matrix& vectors) {
   for (int i = 0; i < kCoefficients; ++i)
     for (int j = 0; j < kCoefficients; ++j) vectors[i][j] = i == j ? 1 : 0;
-  for (int sweep = 0; sweep < 32; ++sweep)
+  for (int sweep = 0; sweep < 32 && off_diagonal(a) > 1e-28; ++sweep)
     for (int p = 0; p < kCoefficients; ++p)
       for (int q = p + 1; q < kCoefficients; ++q) {
         if (a[p][q] == 0) continue;

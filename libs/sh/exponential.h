@@ -13,7 +13,7 @@ namespace vsgl::sh {
 Zonal log_occlusion(double below);
 
 // exp of f, where f sums logarithms of occlusions, by one of
-//   second-order  1 + x + x*x/2 of x = f / 2^p, ||x|| <= 1, squared p times
+//   second-order  1 + x + x*x/2 of x = f / 2^p, ||x|| <= 1/2, squared p times
 //   hyb           [Ren 2006] a 1 + b x of ||x|| <= 1/4, a and b fitted to single caps, squared p times
 // each with f's constant part taken out beforehand, exactly. At most 16 squarings.
 Vector exp_second_order(const Vector& f);
@@ -27,7 +27,7 @@ struct LinearFit {
 };
 LinearFit linear_fit(double norm);
 
-inline constexpr double kSecondOrderNorm = 1, kHybNorm = 0.25;
+inline constexpr double kSecondOrderNorm = 0.5, kHybNorm = 0.25;
 inline constexpr int kMaxSquarings = 16;
 // Smallest p with norm / 2^p <= limit, at most kMaxSquarings.
 int squarings(double norm, double limit);

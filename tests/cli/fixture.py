@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Runs the whole chain once, small, for the cases to start from: scene.json, scene.glb, gbuffer.exr, rsm.exr, pdf.exr, lights.exr,
-ism.exr, indirect.exr; a tree of lights, tree.exr; and an environment map, sky-sky.exr."""
+ism.exr, indirect.exr; a tree of lights, tree.exr; and a scene under an environment map: sky.json, sky-sky.exr,
+sky-gbuffer.exr, proxies.json."""
 
 import argparse
 import pathlib
@@ -26,6 +27,9 @@ def main():
         chain.ismap("--points", "256", "--tile", "16")
         chain.shade()
         chain.run("scene-gen", "sky", "-o", chain.path("sky.json"), outputs=["sky.json", "sky.glb", "sky-sky.exr"])
+        chain.run("rsm-bake", chain.path("sky.json"), "--gbuffer", chain.path("sky-gbuffer.exr"), "--resolution", "48x32",
+                  outputs=["sky-gbuffer.exr"])
+        chain.run("proxy-fit", chain.path("sky.json"), "-o", chain.path("proxies.json"), outputs=["proxies.json"])
         chain.run("vsgl-gen", "--method", "tree", "--rsm", chain.path("rsm.exr"), "-o", chain.path("tree.exr"), outputs=["tree.exr"])
     except StageFailed as failure:
         print(f"FAIL {failure}")

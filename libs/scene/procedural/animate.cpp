@@ -98,6 +98,31 @@ class Animator {
     return {file, cube};
   }
 
+  // A key every fourth frame.
+  void figure() {
+    std::vector<Json> tracks;
+    for (std::size_t i = 0; i < model_.parts.size(); ++i)
+      for (std::size_t k = 0; k < model_.parts[i].joints.size(); ++k) {
+        const ModelJoint& joint = model_.parts[i].joints[k];
+        if (joint.swing_deg == 0) continue;
+        const auto at = [&](int frame) {
+          const double turns = joint.phase + static_cast<double>(frame) / frames_each_way;
+          return joint.rotation_deg + Vec3{joint.swing_deg * std::sin(2 * std::numbers::pi * turns), 0, 0};
+        };
+        Json keys = Json::array();
+        const auto add = [&](int frame) {
+          keys.push_back({{"frame", frame}, {"value", array_of(at(frame))}});
+        };
+        for (int frame = 0; frame < frames_ - 1; frame += 4) add(frame);
+        add(frames_ - 1);
+        // The scene's own transform and mesh come first.
+        tracks.push_back({{"target", "/meshes/" + std::to_string(i + 1) + "/transform/" +
+                                         std::to_string(k + 1) + "/rotation_deg"},
+                          {"keys", keys}});
+      }
+    move(tracks);
+  }
+
  private:
   static constexpr const char* cube =
       "# a cube from -1 to 1, its faces counter-clockwise from outside\n"
@@ -123,7 +148,10 @@ std::vector<GeneratedFile> animate(Json& scene, const Model& model, const Genera
   Animator animator(scene, model, options);
   if (options.animate == "light") animator.light();
   if (options.animate == "camera") animator.camera();
-  if (options.animate == "object") return {animator.object(stem)};
+  if (options.animate == "object" && !model.parts.empty())
+    animator.figure();
+  else if (options.animate == "object")
+    return {animator.object(stem)};
   return {};
 }
 

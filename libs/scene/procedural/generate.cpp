@@ -37,6 +37,7 @@ const std::vector<Generator>& registry() {
        make_sky},
       {{"sphere-light", "a glossy plane under a small sphere light, seen at a grazing angle"},
        make_sphere_light},
+      {{"figure", "a jointed figure on a floor under a soft sky, with its environment map"}, make_figure},
   };
   return all;
 }
@@ -176,6 +177,17 @@ Json sphere_light(const ModelSphereLight& light, const GenerateOptions& options)
           {"radiance_w_m2_sr", light.radiance_w_m2_sr}};
 }
 
+// The parts of a figure, each a chain of joints below the scene's own transform.
+void add_parts(Json& out, const Model& model, const GenerateOptions& options) {
+  for (const ModelPart& part : model.parts) {
+    Json steps = Json::array({{{"translation", array_of(options.offset)}, {"scale", options.scale}}});
+    for (const ModelJoint& joint : part.joints)
+      steps.push_back(
+          {{"translation", array_of(joint.position)}, {"rotation_deg", array_of(joint.rotation_deg)}});
+    out["meshes"].push_back({{"file", part.file}, {"transform", steps}, {"material", part.material}});
+  }
+}
+
 Json scene_json(const Model& model, const GenerateOptions& options, const fs::path& folder,
                 const std::string& stem) {
   Json out{{"$schema", "vsgltools/scene/1"}};
@@ -198,6 +210,9 @@ Json scene_json(const Model& model, const GenerateOptions& options, const fs::pa
     materials["wall"]["normal_texture"] =
         reference(pictures[1], folder);  // a fine grain that suits wood as well
   }
+  for (const auto& [name, diffuse] : model.part_materials)
+    materials[name] = {{"diffuse", array_of(diffuse)}, {"specular", 0}};
+  add_parts(out, model, options);
   if (!materials.empty()) out["materials"] = materials;
   if (!model.environment.empty()) out["environment"] = {{"file", model.environment}};
   if (model.sphere_light.radius > 0)
@@ -229,6 +244,8 @@ GeneratedScene generate_scene(const std::string& name, const GenerateOptions& op
   check(name, options);
   Model model = generator.make(options);
   for (ModelImage& image : model.images) image.name = stem + "-" + image.name;
+  for (ModelImage& file : model.part_files) file.name = stem + "-" + file.name;
+  for (ModelPart& part : model.parts) part.file = stem + "-" + part.file;
   if (!model.environment.empty()) model.environment = stem + "-" + model.environment;
   for (ModelMaterial& material : model.materials)
     for (std::string* image : {&material.base_color_image, &material.normal_image})
@@ -240,6 +257,8 @@ GeneratedScene generate_scene(const std::string& name, const GenerateOptions& op
   out.files.push_back({stem + ".json", scene.dump(2) + "\n"});
   out.files.push_back({stem + ".glb", write_glb(model, options.offset, options.scale)});
   out.files.insert(out.files.end(), moving.begin(), moving.end());
+  for (ModelImage& file : model.part_files)
+    out.files.push_back({std::move(file.name), std::move(file.bytes)});
   for (ModelImage& image : model.images) out.files.push_back({std::move(image.name), std::move(image.bytes)});
   return out;
 }

@@ -53,12 +53,33 @@ struct ModelSphereLight {
   double radiance_w_m2_sr = 1;
 };
 
+// Where a part is joined to the one that it hangs on, and how it swings there: by so many degrees about x, a
+// whole swing in a cycle that begins at `phase` (turns).
+struct ModelJoint {
+  Vec3 position, rotation_deg;
+  double swing_deg = 0, phase = 0;
+};
+
+// A moving part of a figure: a mesh file of its own, which several may share.
+struct ModelPart {
+  std::string file;  // one of Model::part_files
+  std::string material;
+  std::vector<ModelJoint> joints;  // from the world to the part
+};
+struct ModelPartMaterial {
+  std::string name;
+  Vec3 diffuse;
+};
+
 // A scene before it is moved, scaled and written; metres, y up.
 struct Model {
   std::vector<ModelMaterial> materials;
   std::vector<ModelMesh> meshes;
   std::vector<ModelNode> nodes;
   std::vector<ModelImage> images;
+  std::vector<ModelImage> part_files;  // Wavefront OBJ
+  std::vector<ModelPart> parts;
+  std::vector<ModelPartMaterial> part_materials;
   std::string environment;  // which of the images lights the scene from far away; empty: none
   ModelView camera, light;
   ModelSphereLight sphere_light{};

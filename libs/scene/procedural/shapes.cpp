@@ -1,6 +1,7 @@
 #include "scene/procedural/shapes.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace vsgl::scene {
 namespace {
@@ -87,6 +88,22 @@ void Shapes::surface(int columns, int rows, const std::function<Point(double s, 
       vertex(point.position, point.normal, s * size_s, t * size_t);
     }
   cells(first, columns, rows);
+}
+
+ModelMesh ball(const std::string& name, int material, Vec3 centre, double radius, int cells) {
+  constexpr Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  constexpr double quarter = std::numbers::pi / 2;
+  Shapes shape(name, material);
+  for (int face = 0; face < 6; ++face) {
+    const double side = face < 3 ? 1 : -1;
+    const Vec3 out = axes[face % 3] * side, right = axes[(face + 1) % 3] * side, up = axes[(face + 2) % 3];
+    shape.surface(cells, cells, [&](double s, double t) {
+      const Vec3 n =
+          normalise(out + right * std::tan(quarter * (s - 0.5)) + up * std::tan(quarter * (t - 0.5)));
+      return Shapes::Point{centre + n * radius, n};
+    });
+  }
+  return shape.take();
 }
 
 }  // namespace vsgl::scene

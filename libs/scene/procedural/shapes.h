@@ -43,4 +43,7 @@ class Shapes {
   double tile_;
 };
 
+// The outside of a sphere: a cube's six faces blown up, of 2 cells^2 triangles each.
+ModelMesh ball(const std::string& name, int material, Vec3 centre, double radius, int cells = 16);
+
 }  // namespace vsgl::scene

@@ -29,38 +29,21 @@ Vec3 sky_radiance(Vec3 direction) {
   return horizon * (1 - up) + zenith * up;
 }
 
-std::string sky_exr() {
+}  // namespace
+
+std::string environment_exr(const std::function<Vec3(Vec3)>& radiance) {
   FloatImage map{2 * map_height, map_height, {"R", "G", "B"}, {}};
   for (int row = 0; row < map.height; ++row)
     for (int column = 0; column < map.width; ++column) {
       Vec3 mean;
       for (int k = 0; k < samples * samples; ++k) {
         const double x = column + (k % samples + 0.5) / samples, y = row + (k / samples + 0.5) / samples;
-        mean += sky_radiance(environment_direction(x / map.width, y / map.height)) / (samples * samples);
+        mean += radiance(environment_direction(x / map.width, y / map.height)) / (samples * samples);
       }
       for (const double value : to_array(mean)) map.values.push_back(static_cast<float>(value));
     }
   return image_codec().encode_exr(map);
 }
-
-// A cube's six faces blown up.
-ModelMesh ball(const std::string& name, int material, Vec3 centre, double radius) {
-  constexpr int cells = 16;  // a face's side
-  constexpr Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  Shapes shape(name, material);
-  for (int face = 0; face < 6; ++face) {
-    const double side = face < 3 ? 1 : -1;
-    const Vec3 out = axes[face % 3] * side, right = axes[(face + 1) % 3] * side, up = axes[(face + 2) % 3];
-    shape.surface(cells, cells, [&](double s, double t) {
-      const Vec3 n =
-          normalise(out + right * std::tan(pi / 2 * (s - 0.5)) + up * std::tan(pi / 2 * (t - 0.5)));
-      return Shapes::Point{centre + n * radius, n};
-    });
-  }
-  return shape.take();
-}
-
-}  // namespace
 
 // Metal balls from smooth to rough and a matt block on a matt ground, under a sky whose map lies beside the
 // scene. The lamp is for the chains that do without the sky.
@@ -84,7 +67,7 @@ Model make_sky(const GenerateOptions& options) {
   model.light = {{2.5, 3, 2.5}, {0, 0, 0}, 25};
   model.light_inner_deg = 15;
   model.light_intensity_w_sr = 20;
-  model.images = {{"sky.exr", sky_exr()}};
+  model.images = {{"sky.exr", environment_exr(sky_radiance)}};
   model.environment = "sky.exr";
   return model;
 }

@@ -1,0 +1,212 @@
+// Spheres fitted to meshes, and their file.
+
+#include "stages/proxies/proxies.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "../expect_error.h"
+#include "base/atomic_file.h"
+#include "scene/procedural.h"
+#include "scene/procedural/shapes.h"
+#include "stages/proxies/sphere_set.h"
+#include "stages/proxies/voxels.h"
+
+namespace vsgl {
+namespace {
+
+using namespace proxies;
+using test::expect_error;
+using test::TemporaryFolder;
+
+constexpr double pi = std::numbers::pi;
+
+Triangles triangles_of(const scene::ModelMesh& mesh) {
+  Triangles out{{}, mesh.indices};
+  for (const auto& p : mesh.positions)
+    out.positions.push_back(
+        {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+  return out;
+}
+Triangles ball_mesh(Vec3 center, double radius) {
+  return triangles_of(scene::ball("ball", 0, center, radius));
+}
+Triangles box_mesh(Vec3 low, Vec3 high) {
+  scene::Shapes shapes("box", 0);
+  shapes.box(low, high);
+  return triangles_of(shapes.take());
+}
+double volume_of(const Voxels& voxels) {
+  return static_cast<double>(voxels.inside_count()) * std::pow(voxels.side, 3);
+}
+
+TEST(Voxels, HoldTheVolume) {
+  EXPECT_NEAR(volume_of(voxelise(ball_mesh({1, 2, 3}, 0.5), 48)) / (4 * pi / 3 * 0.125), 1, 0.01);
+  EXPECT_NEAR(volume_of(voxelise(box_mesh({0, 0, 0}, {1, 2, 3}), 48)) / 6, 1, 1e-9);
+}
+
+TEST(Voxels, AHoleDoesNotEmptyThem) {
+  Triangles box = box_mesh({0, 0, 0}, {1, 1, 1});
+  box.indices.resize(box.indices.size() - 3);
+  EXPECT_NEAR(volume_of(voxelise(box, 32)), 1, 0.01);
+}
+
+TEST(Voxels, DistancesAreThoseOfBruteForce) {
+  const Voxels voxels = voxelise(box_mesh({0, 0, 0}, {1, 0.5, 0.7}), 10);
+  const std::vector<float> found = squared_distances(voxels);
+  for (int z = 0; z < voxels.nz; ++z)
+    for (int y = 0; y < voxels.ny; ++y)
+      for (int x = 0; x < voxels.nx; ++x) {
+        double least = 1e9;
+        for (int k = 0; k < voxels.nz; ++k)
+          for (int j = 0; j < voxels.ny; ++j)
+            for (int i = 0; i < voxels.nx; ++i)
+              if (voxels.inside[voxels.index(i, j, k)] == 0)
+                least = std::min<double>(least, (x - i) * (x - i) + (y - j) * (y - j) + (z - k) * (z - k));
+        EXPECT_EQ(found[voxels.index(x, y, z)], least) << x << " " << y << " " << z;
+      }
+}
+
+TEST(Spheres, OfABallIsItself) {
+  const SphereSet set = fit_spheres(ball_mesh({1, 2, 3}, 0.5), 16, 0.97);
+  ASSERT_EQ(set.spheres.size(), 1u);
+  EXPECT_NEAR(set.spheres[0].radius, 0.5, 0.005);
+  EXPECT_LE(length(set.spheres[0].center - Vec3{1, 2, 3}), 0.005);
+  EXPECT_FALSE(set.sheet);
+}
+
+// The union has the box's volume. Balls of their cells' volumes miss about a tenth of it, however many there
+// are.
+TEST(Spheres, OfABox) {
+  const Triangles box = box_mesh({-1, -0.5, -0.25}, {1, 0.5, 0.25});
+  double last = 1;
+  for (const std::size_t count : {1u, 4u, 16u}) {
+    const SphereSet set = fit_spheres(box, static_cast<int>(count), 1);
+    EXPECT_EQ(set.spheres.size(), count);
+    EXPECT_NEAR(set.volume_outside, set.volume_missed, 0.02) << count;
+    EXPECT_LT(set.volume_outside, last) << count;
+    last = set.volume_outside;
+  }
+  EXPECT_LT(last, 0.12);
+}
+
+TEST(Spheres, OfASheetLieBehindIt) {
+  scene::Shapes shapes("sheet", 0);
+  shapes.grid({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 4, 4);
+  const SphereSet set = fit_spheres(triangles_of(shapes.take()), 9, 0.97);
+  ASSERT_EQ(set.spheres.size(), 9u);
+  EXPECT_TRUE(set.sheet);
+  double area = 0;
+  for (const Sphere& sphere : set.spheres) {
+    EXPECT_NEAR(sphere.center.y, -sphere.radius, 1e-9);
+    area += pi * sphere.radius * sphere.radius;
+  }
+  EXPECT_NEAR(area, 4, 1e-9);
+}
+
+TEST(Spheres, OfNothing) {
+  EXPECT_TRUE(fit_spheres({}, 16, 0.97).spheres.empty());
+  EXPECT_TRUE(fit_spheres({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {0, 1, 2}}, 16, 0.97).spheres.empty());
+}
+
+// A generated scene on disk, read as a sequence.
+class ProxyFit : public testing::Test {
+ protected:
+  scene::SceneSequence sequence(const std::string& name, const scene::GenerateOptions& options = {}) {
+    for (const auto& file : scene::generate_scene(name, options, folder_ / "", "scene").files)
+      std::ofstream(folder_ / file.name, std::ios::binary) << file.bytes;
+    return scene::SceneSequence(folder_ / "scene.json");
+  }
+  Proxies fit(const scene::SceneSequence& from, int frame = 0, const ProxyParams& params = {}) {
+    Report report;
+    return fit_proxies(from, frame, params, report);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ProxyFit, KeepsFloorsOut) {
+  const Proxies found = fit(sequence("sky"));
+  ASSERT_EQ(found.receivers.size(), 1u);
+  EXPECT_EQ(found.receivers[0].name, "ground");
+  ASSERT_EQ(found.objects.size(), 4u);
+  EXPECT_EQ(found.objects[1].spheres.size(), 1u);
+  for (const ProxyObject& object : found.objects)
+    for (const ProxySphere& sphere : object.spheres) {
+      const Vec3 expected = object.name == "block" ? Vec3{0.6, 0.15, 0.1} : Vec3{};
+      EXPECT_LE(length(sphere.albedo - expected), 1e-6) << object.name;
+    }
+}
+
+// Spheres keep to their mesh while it moves.
+TEST_F(ProxyFit, MovesSpheresWithTheirInstance) {
+  scene::GenerateOptions options;
+  options.animate = "object";
+  options.frames = 8;
+  const auto frames = sequence("sky", options);
+  const Proxies first = fit(frames, 0), later = fit(frames, 5);
+  const auto origins_first = frames.origins(0), origins_later = frames.origins(5);
+  ASSERT_EQ(first.objects.size(), later.objects.size());
+  bool moved = false;
+  for (std::size_t i = 0; i < first.objects.size(); ++i) {
+    const auto instance = static_cast<std::size_t>(first.objects[i].instance);
+    const Vec3 way =
+        origins_later[instance].transform.point({}) - origins_first[instance].transform.point({});
+    moved |= length(way) > 0;
+    ASSERT_EQ(first.objects[i].spheres.size(), later.objects[i].spheres.size());
+    for (std::size_t k = 0; k < first.objects[i].spheres.size(); ++k) {
+      const ProxySphere &a = first.objects[i].spheres[k], &b = later.objects[i].spheres[k];
+      EXPECT_LE(length(b.center - a.center - way), 1e-9);
+      EXPECT_NEAR(a.radius, b.radius, 1e-12);
+    }
+  }
+  EXPECT_TRUE(moved);
+}
+
+TEST_F(ProxyFit, AnyNumberOfThreadsGivesTheSame) {
+  const auto scene = sequence("sky");
+  const auto bytes = [&](int threads) {
+    omp_set_num_threads(threads);
+    write(folder_ / "p.json", fit(scene), {});
+    return read_text(folder_ / "p.json");
+  };
+  const int threads = omp_get_max_threads();
+  EXPECT_EQ(bytes(1), bytes(3));
+  omp_set_num_threads(threads);
+}
+
+TEST_F(ProxyFit, ReadsWhatItWrites) {
+  const Proxies made = fit(sequence("sky"), 0, {.count = 3, .receivers = {"ball1"}});
+  write(folder_ / "p.json", made, {"proxy-fit", "0.1.0", "proxy-fit scene.json", 0, {{"scene.json", "ab"}}});
+  const Proxies read = read_proxies(folder_ / "p.json");
+  EXPECT_EQ(read.anchor, made.anchor);
+  ASSERT_EQ(read.receivers.size(), 2u);
+  EXPECT_EQ(read.receivers[1].name, "ball1");
+  ASSERT_EQ(read.objects.size(), made.objects.size());
+  for (std::size_t i = 0; i < made.objects.size(); ++i) {
+    EXPECT_EQ(read.objects[i].name, made.objects[i].name);
+    EXPECT_EQ(read.objects[i].instance, made.objects[i].instance);
+    EXPECT_EQ(read.objects[i].errors.surface_distance_rms, made.objects[i].errors.surface_distance_rms);
+    ASSERT_EQ(read.objects[i].spheres.size(), made.objects[i].spheres.size());
+    for (std::size_t k = 0; k < made.objects[i].spheres.size(); ++k) {
+      EXPECT_EQ(read.objects[i].spheres[k].center, made.objects[i].spheres[k].center);
+      EXPECT_EQ(read.objects[i].spheres[k].radius, made.objects[i].spheres[k].radius);
+      EXPECT_EQ(read.objects[i].spheres[k].albedo, made.objects[i].spheres[k].albedo);
+    }
+  }
+  EXPECT_EQ(proxies_glb(made).substr(0, 4), "glTF");
+}
+
+TEST_F(ProxyFit, BadParametersAreErrors) {
+  const auto scene = sequence("sky");
+  expect_error(ErrorCode::out_of_range, {"count: 0"}, [&] { fit(scene, 0, {.count = 0}); });
+  expect_error(ErrorCode::out_of_range, {"cover"}, [&] { fit(scene, 0, {.cover = 2}); });
+  expect_error(ErrorCode::bad_value, {"no node \"moon\""}, [&] { fit(scene, 0, {.receivers = {"moon"}}); });
+  expect_error(ErrorCode::out_of_range, {"no frame 1"}, [&] { fit(scene, 1); });
+}
+
+}  // namespace
+}  // namespace vsgl

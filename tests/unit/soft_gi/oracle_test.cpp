@@ -1,0 +1,132 @@
+// The device against the formulas in double precision, without tables, one receiver at a time.
+
+#include <gtest/gtest.h>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <random>
+
+#include "math/frame.h"
+#include "sh/emission.h"
+#include "sh/exponential.h"
+#include "sh/proxy_sphere.h"
+#include "soft_gi_scene.h"
+
+namespace vsgl {
+namespace {
+
+using namespace test;
+using soft_gi::ColourVector;
+
+Vec3 evaluate(const ColourVector& light, const sh::Vector& y) {
+  return {sh::dot(light[0], y), sh::dot(light[1], y), sh::dot(light[2], y)};
+}
+
+// Order-3 projection of the radiance over the disk, by its definition, times the cosine: irradiance over the
+// albedo / pi.
+Vec3 exact_irradiance(const ColourVector& lit, Vec3 center, double radius, Vec3 normal) {
+  using Gauss = boost::math::quadrature::gauss<double, 30>;
+  const double distance = length(center), sine = std::min(radius / distance, 1.0),
+               cosine = std::sqrt(1 - sine * sine);
+  const Frame frame = frame_about(center / distance);
+  sh::Vector turned = sh::turn(sh::clamped_cosine(), normal);
+  std::array<sh::Vector, 3> radiance{};
+  for (std::size_t n = 0; n < Gauss::abscissa().size(); ++n)
+    for (const double side : {-1.0, 1.0})
+      for (int a = 0; a < 16; ++a) {
+        const double v = sine * (1 + side * Gauss::abscissa()[n]) / 2, z = std::hypot(cosine, v);
+        const double weight = Gauss::weights()[n] * sine / 2 * v / z * 2 * pi / 16, r = std::sqrt(1 - z * z);
+        const Vec3 s = frame.to_world({r * std::cos(pi * a / 8), r * std::sin(pi * a / 8), z});
+        const Vec3 hit = s * (distance * (z - v));
+        const Vec3 there = evaluate(lit, sh::basis(normalise(hit - center)));
+        const sh::Vector y = sh::basis(s);
+        for (int i = 0; i < 9; ++i) {
+          radiance[0][i] += weight * there.x * y[i];
+          radiance[1][i] += weight * there.y * y[i];
+          radiance[2][i] += weight * there.z * y[i];
+        }
+      }
+  return {sh::dot(radiance[0], turned), sh::dot(radiance[1], turned), sh::dot(radiance[2], turned)};
+}
+
+Vec3 disk_irradiance(const ColourVector& lit, Vec3 d, double sine, Vec3 normal, bool averaged) {
+  const sh::EmissionZonal mean = sh::mean_emission_polynomial(sine);
+  const sh::Vector bands = averaged ? sh::turn({mean[0], mean[1], mean[2], 0}, d) : sh::basis(-d);
+  const double cap =
+      sh::dot(sh::turn(sh::cap(sh::below_of_sine(sine)), d), sh::turn(sh::clamped_cosine(), normal));
+  const Vec3 radiance = evaluate(lit, bands);
+  return cap * Vec3{std::max(radiance.x, 0.0), std::max(radiance.y, 0.0), std::max(radiance.z, 0.0)};
+}
+
+struct Shade {
+  Vec3 direct, indirect;
+};
+Shade shade_in_double(const Point& at, const std::vector<ProxySphere>& spheres, const ColourVector& light,
+                      const std::string& emission) {
+  ColourVector lit;
+  for (int c = 0; c < 3; ++c) {
+    lit[c] = sh::convolve(light[c], sh::clamped_cosine());
+    for (int i = 9; i < 16; ++i) lit[c][i] = 0;
+  }
+  sh::Vector log{};
+  Vec3 indirect;
+  double solid_angle = 0;
+  for (const ProxySphere& sphere : spheres) {
+    const auto [center, radius] = sh::above_plane({sphere.center - at.position, sphere.radius}, at.normal);
+    if (radius <= 0) continue;
+    const double distance = length(center), sine = std::min(radius / distance, 1.0);
+    const Vec3 d = center / distance;
+    const double below = sh::below_of_sine(sine);
+    const sh::Vector f = sh::turn(sh::log_occlusion(below), d);
+    for (int i = 0; i < 16; ++i) log[i] += f[i];
+    solid_angle += 2 * pi * below;
+    indirect += sphere.albedo / pi *
+                (emission == "exact" ? exact_irradiance(lit, center, radius, at.normal)
+                                     : disk_irradiance(lit, d, sine, at.normal, emission == "averaged"));
+  }
+  const sh::Vector occlusion = sh::exp_exact(log);
+  const sh::Vector seen = sh::product(occlusion, sh::turn(sh::clamped_cosine(), at.normal));
+  const double covered = (sh::one()[0] - occlusion[0]) * sh::one()[0];
+  const double share = solid_angle > 0 ? std::clamp(covered / solid_angle, 0.0, 1.0) : 1;
+  return {evaluate(light, seen) / pi, share * indirect / pi};
+}
+
+struct Case {
+  int spheres;
+  double largest, tolerance;  // of the radiance, where the unshadowed one is about 1
+};
+
+// The table errs by up to 0.7% of a logarithm, the exponentials by what their own tests state.
+TEST(SoftGiOracle, DeviceFollowsTheFormulas) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto sky = coloured_sky();
+  const ColourVector light = soft_gi::project(sky);
+  for (const Case& setting : {Case{1, 0.5, 0.012}, Case{5, 0.3, 0.012}, Case{40, 0.15, 0.02}}) {
+    std::vector<ProxySphere> spheres;
+    for (int i = 0; i < setting.spheres; ++i)
+      spheres.push_back({{uniform(random), uniform(random), uniform(random)},
+                         setting.largest * (0.55 + 0.45 * uniform(random)),
+                         {0.9, 0.6, 0.3}});
+    std::vector<Point> points;
+    for (int i = 0; i < 40; ++i)
+      points.push_back({{2 * uniform(random), 2 * uniform(random), 2 * uniform(random)},
+                        normalise({uniform(random), uniform(random), uniform(random)})});
+    for (const auto& emission : emissions())
+      for (const auto& exponential : exponentials()) {
+        SoftGiParams params = everywhere();
+        params.emission = emission.name;
+        params.exponential = exponential.name;
+        const Indirect image = shade(gbuffer_of(points), proxies_of(spheres), sky, params);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const Shade expected = shade_in_double(points[i], spheres, light, emission.name);
+          EXPECT_LE(length(widen(image.direct[i]) - expected.direct), setting.tolerance)
+              << setting.spheres << " spheres, " << exponential.name << ", receiver " << i;
+          EXPECT_LE(length(widen(image.diffuse[i]) - expected.indirect), setting.tolerance)
+              << setting.spheres << " spheres, " << emission.name << ", receiver " << i;
+        }
+      }
+  }
+}
+
+}  // namespace
+}  // namespace vsgl
