@@ -95,10 +95,7 @@ vsgl::Reference trace_environment(const Arguments& a, const vsgl::scene::Scene& 
 
 vsgl::Reference trace(const Arguments& a, const vsgl::scene::Scene& scene, const vsgl::GBuffer& gbuffer,
                       vsgl::Report& report) {
-  if (a.sphere_lights) {
-    const auto spheres = vsgl::scene::load_sphere_lights(a.scene.path, scene.anchor);
-    return vsgl::reference::trace_sphere_lights(scene, spheres, gbuffer, a.params, report);
-  }
+  if (a.sphere_lights) return vsgl::reference::trace_sphere_lights(scene, gbuffer, a.params, report);
   if (a.environment) return trace_environment(a, scene, gbuffer, report);
   constexpr std::size_t kSteps = 1000;
   vsgl::Progress bar("reference", kSteps);

@@ -30,7 +30,7 @@ struct Bounds {
 // odd constants keep decimal sizes off the points where rounding changes its mind.
 Vec3 choose_anchor(const Bounds& bounds) {
   const double half_diagonal = length(bounds.high - bounds.low) / 2;
-  const double grid = std::exp2(std::floor(std::log2(std::max(half_diagonal, 1e-30) * 1.1371)) - 4);
+  const double grid = std::exp2(std::floor(std::log2(std::max(half_diagonal, 1e-30) * 1.1371)) - 20);
   const auto snap = [grid](double low, double high) {
     return grid * std::floor((low + high) / 2 / grid + 0.5 + 0.1237);
   };
