@@ -107,15 +107,16 @@ void call() {
     case 15u: put(cosine_mean(take(), take())); return;
     case 16u: put(published_fluence(take3(), take(), take3(), take())); return;
   }
+  // All of them get the light's axis as the kernels have it: rounded once more.
   Receiver r = take_receiver();
   vec3 axis = take3();
-  float sharpness = take();
+  Incoming light = lobe_light(axis, take());
   switch (FUNCTION) {
-    case 3u: put(specular_answer(r, lobe_light(axis, sharpness))); break;
-    case 4u: put(published_sg_product(r.lobe, axis, sharpness)); break;
-    case 5u: put(published_asg(r.lobe, axis, sharpness)); break;
-    case 6u: put(published_asg_asg(r.lobe, axis, sharpness)); break;
-    case 7u: put(published_ndf_filter(r.lobe, axis, sharpness)); break;
-    case 8u: put(published_normalised(r.lobe, axis, sharpness)); break;
+    case 3u: put(specular_answer(r, light)); break;
+    case 4u: put(published_sg_product(r.lobe, light.axis, light.sharpness)); break;
+    case 5u: put(published_asg(r.lobe, light.axis, light.sharpness)); break;
+    case 6u: put(published_asg_asg(r.lobe, light.axis, light.sharpness)); break;
+    case 7u: put(published_ndf_filter(r.lobe, light.axis, light.sharpness)); break;
+    case 8u: put(published_normalised(r.lobe, light.axis, light.sharpness)); break;
   }
 }
