@@ -9,8 +9,6 @@
 namespace vsgl::test {
 namespace {
 
-using Exact = std::function<long double(Arguments&)>;
-
 Row tilted(double angle) {
   // In no plane of coordinates, so that no component is exact.
   const Vec3 z = normalise(Vec3{0.36, -0.48, 0.8}), x = normalise(cross(Vec3{0, 1, 0}, z));
