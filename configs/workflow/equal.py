@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Methods side by side, scene by scene: error and time of each variant with an equal number of lights, and its error after an equal
-time, which is that of one variant with so many lights. results.py calls this for experiments that say `equal`; as a program it
-prints the tables of an experiment's results.json in Markdown.
+"""Methods side by side, scene by scene: error and time of each variant with an equal number of lights, and its error after an
+equal time, which is that of one variant with so many lights. results.py calls this for experiments that say `equal`; as a program
+it prints the tables of an experiment's results.json in Markdown.
 
 Usage: equal.py RESULTS.json"""
 
@@ -67,7 +67,7 @@ def images(rows, scene, name, variant, metric):
 
 
 def between(first, second, time):
-    """Error on the straight line between two images on logarithmic axes; where an error is not above 0, on a linear axis of errors."""
+    """Error on the straight line between two images on logarithmic axes; on a linear axis of errors where one is not above 0."""
     share = math.log(time / first.time) / math.log(second.time / first.time) if second.time > first.time else 1
     if first.error > 0 < second.error:
         return first.error * (second.error / first.error) ** share
@@ -84,8 +84,8 @@ def front(found):
 
 
 def after(found, time):
-    """(error, how it was found) of a variant, whose images these are, after that time: on the line through those that err less than all
-    cheaper ones. The error is None where none comes near enough: the line is not continued beyond its ends."""
+    """(error, how it was found) of a variant, whose images these are, after that time: on the line through those that err less
+    than all cheaper ones. The error is None where none comes near enough: the line is not continued beyond its ends."""
     curve = front(found)
     if not curve:
         return None, "no image with this metric"
@@ -150,7 +150,8 @@ def markdown(table):
              "| method | time, s | error | error after the equal time | found |", "|---|---|---|---|---|"]
     for method in table["methods"]:
         time = "-" if method["time_s"] is None else f"{method['time_s']:.2f}"
-        lines.append(f"| `{method['variant']}` | {time} | {figure(method['error'])} | {figure(method['error_in_time'])} | {method['how']} |")
+        cells = [f"`{method['variant']}`", time, figure(method["error"]), figure(method["error_in_time"]), method["how"]]
+        lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 
 

@@ -62,9 +62,9 @@ def coverage(lights, pdf):
 
 @functools.cache
 def lights(folder):
-    """`brightest`: the largest power of a light over the mean one; `share`: the same over that of all; `spread`: standard deviation of
-    powers over their mean; `dimming`: power over area of the quarter with the largest footprints, over that of the quarter with
-    the smallest (not a number where footprints are points)."""
+    """`brightest`: the largest power of a light over the mean one; `share`: the same over that of all; `spread`: standard
+    deviation of powers over their mean; `dimming`: power over area of the quarter with the largest footprints, over that of the
+    quarter with the smallest (not a number where footprints are points)."""
     found, _ = exr.read(f"{folder}/lights.exr")
     powers = luminous_powers(found)
     kept = powers > 0

@@ -88,7 +88,8 @@ def legend(figure, panels):
     labels = {}
     for panel in panels.flat:
         labels.update((label, handle) for handle, label in zip(*panel.get_legend_handles_labels()))
-    figure.legend(labels.values(), labels.keys(), loc="upper center", bbox_to_anchor=(0.5, 0), ncol=min(len(labels), 5), frameon=False)
+    figure.legend(labels.values(), labels.keys(), loc="upper center", bbox_to_anchor=(0.5, 0), ncol=min(len(labels), 5),
+                  frameon=False)
 
 
 def plot(rows, metric, x, target):

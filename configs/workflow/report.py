@@ -10,8 +10,8 @@ from equal import NEAR
 
 AGAINST = {"time_s": "time", "n": "the number of lights or samples"}
 FRONT = " Rings on a dotted line: the Pareto front, which no other point beats in both."
-EQUAL = (f"Between two images of a method errors are interpolated on logarithmic axes; before its first and after its last one stands for "
-         f"times that differ from its own by a factor of at most {NEAR}.")
+EQUAL = (f"Between two images of a method, of which none errs more than a cheaper one, errors are interpolated on logarithmic "
+         f"axes; the first and the last also stand for times that differ from theirs by a factor of at most {NEAR}.")
 DECOMPOSED = ("the causes of the error, each taken away after those above it. Share of the error's power, with its 95% interval; "
               "mean and root mean square relative to the reference's mean.")
 
@@ -71,8 +71,8 @@ def equal_tables(tables):
     found = []
     for entry in tables:
         metric = plots.LABELS.get(entry["metric"], entry["metric"])
-        caption = (f"{entry['scene']}: {metric} with {entry['lights']} lights; and after {entry['time_s']:.2f} s, which {entry['time_of']} "
-                   f"takes for them. {EQUAL}")
+        caption = (f"{entry['scene']}: {metric} with {entry['lights']} lights; and after {entry['time_s']:.2f} s, which "
+                   f"{entry['time_of']} takes for them. {EQUAL}")
         columns = ["method", f"time with {entry['lights']} lights, s", "error", f"error after {entry['time_s']:.2f} s", "found"]
         keys = ["variant", "time_s", "error", "error_in_time", "how"]
         found.append(table(caption, columns, [[method[key] for key in keys] for method in entry["methods"]]))
