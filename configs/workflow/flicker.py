@@ -82,10 +82,10 @@ def table(name, found):
         f = truths[TRUTH]
         low, high = f["flicker_interval"]
         visible = "" if f["spectrum"] is None else f"{f['spectrum']['visible']:.4f}"
-        line = f"{label:<16}{f['flicker']:>9.4f}{f'{low:.4f} .. {high:.4f}':>18}{visible:>9}{f['step_p99']:>10.3f}{f['pops']:>7}"
+        line = f"{label:<16}{f['flicker']:>9.4f}{f'{low:.4f} .. {high:.4f}':>18}{visible:>9}{f['step_p99']:>10.3f}{f['pops']:>7.0f}"
         if LIMIT in truths:
             g = truths[LIMIT]
-            line += f"   {g['flicker']:.4f}, {g['step_p99']:.3f}, {g['pops']}"
+            line += f"   {g['flicker']:.4f}, {g['step_p99']:.3f}, {g['pops']:.0f}"
         lines.append(line)
     steps = found["default"]["seams"]
     lines.append("default, steps at tile borders beyond those beside them: " +
