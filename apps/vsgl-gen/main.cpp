@@ -26,6 +26,8 @@ Generated generate(vsgl::Tool& tool, const Arguments& a, vsgl::Report& report) {
 }
 
 vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::OutputSet& outputs) {
+  if (a.environment.file.empty() && tool.app().count("--environment-scale") > 0)
+    throw vsgl::Error(vsgl::ErrorCode::missing_option, "--environment-scale requires --environment");
   a.params.seed = tool.common().seed;
   const Generated out = generate(tool, a, report);
   const vsgl::PhaseTimer timer(report, "write");

@@ -24,8 +24,7 @@ CLI::Option* declare_environment(Tool& tool, Arguments& a) {
       ->needs(map);
   tool.app()
       .add_option("--environment-scale", a.environment.scale, "factor on the map's values")
-      ->check(CLI::Range(0.0, 1e30))
-      ->needs(map);
+      ->check(CLI::Range(0.0, 1e30));
   return map;
 }
 
