@@ -26,14 +26,13 @@ CLI::Option* declare_environment(vsgl::Tool& tool, Arguments& a) {
   CLI::Option* environment =
       app.add_flag("--environment", a.environment,
                    "light of the scene's environment, direct and after one bounce, in place of its lights'");
-  CLI::Option* proxies =
-      tool.input("--proxies", a.proxies, "spheres of proxy-fit, for --blockers")->needs(environment);
+  tool.input("--proxies", a.proxies, "spheres of proxy-fit, for --blockers")->needs(environment);
   app.add_option(
          "--blockers", a.environment_params.blockers,
          "environment: what hides and reflects its light: scene; meshes: those that proxies stand for; "
          "spheres: the proxies themselves")
       ->check(CLI::IsMember({"scene", "meshes", "spheres"}))
-      ->needs(proxies);
+      ->needs(environment);
   app.add_option("--bounce", a.environment_params.bounce,
                  "environment: light on what reflects it: shadowed, or unshadowed as proxy-gi has it")
       ->check(CLI::IsMember({"shadowed", "unshadowed"}))

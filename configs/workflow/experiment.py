@@ -20,7 +20,8 @@ from stage import remove_leftovers
 WORKFLOW = pathlib.Path(__file__).resolve().parent
 PYTHON = "/usr/bin/python3"  # the one whose packages Debian's packages are
 SNAKEMAKE = "/usr/bin/snakemake"
-TOOLS = ["scene-gen", "rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "render", "reference", "compare", "report"]
+TOOLS = ["scene-gen", "rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "render", "reference", "compare", "report",
+         "proxy-fit", "proxy-gi"]
 # What else a tool must be given before it looks at its options.
 DRY_RUN = {
     "rsm-bake": ["scene.json", "--gbuffer", "gbuffer.exr", "--rsm", "rsm.exr"],
@@ -29,6 +30,8 @@ DRY_RUN = {
     "ismap": ["scene.json", "--lights", "lights.exr", "-o", "ism.exr"],
     "shade": ["--gbuffer", "gbuffer.exr", "--lights", "lights.exr", "-o", "indirect.exr"],
     "reference": ["scene.json", "--gbuffer", "gbuffer.exr", "-o", "reference.exr"],
+    "proxy-fit": ["scene.json", "-o", "proxies.json"],
+    "proxy-gi": ["--gbuffer", "gbuffer.exr", "--proxies", "proxies.json", "--environment", "sky.exr", "-o", "softgi.exr"],
 }
 
 

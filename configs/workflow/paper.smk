@@ -47,7 +47,7 @@ rule figure:
     input:
         lambda wildcards: PLAN["figures"][wildcards.figure],
         "figures/{figure}/figure.json",
-        [f"{WORKFLOW}/{name}.py" for name in ("paper_figure", "paper_measures", "paper_pictures", "paper_values", "exr")],
+        [f"{WORKFLOW}/{name}.py" for name in ("paper_figure", "paper_measures", "paper_operators", "paper_pictures", "paper_values", "exr")],
     output: "figures/{figure}/section.json", "figures/{figure}/values.json"
     shell: "{PYTHON} {WORKFLOW}/paper_figure.py {wildcards.figure}"
 

@@ -8,6 +8,7 @@ import numpy
 
 import exr
 import kernels
+import paper_operators
 from code_size import code_lines, dispatches
 from paper_values import evaluate
 from results import metrics
@@ -57,8 +58,8 @@ def mean_of(function):
 
 
 def metric(row, spec):
-    """Of compare, of the layer `indirect`."""
-    return metrics(row["comparison"])[spec["metric"]]
+    """Of compare, of a layer, by default `indirect`."""
+    return metrics(row["comparison"], spec.get("layer", "indirect"))[spec["metric"]]
 
 
 def milliseconds(row, spec):
@@ -128,6 +129,11 @@ def code(data, spec):
     return sum(code_lines(pathlib.Path(path).read_text(encoding="utf-8")) for path in paths)
 
 
+def operator(_, spec):
+    """Of the operators that give a lit sphere's radiance; see paper_operators.py."""
+    return paper_operators.MEASURES[spec["operator"]]()
+
+
 def dispatch_count(row, spec):
     return dispatches(read_json(f"{row['stages'][spec['dispatches']]}/report.json"))
 
@@ -143,4 +149,5 @@ MEASURES = {
     "flicker": flicker,
     "frame_time": frame_time,
     "code": code,
+    "operator": operator,
 }

@@ -13,6 +13,7 @@ from PIL import Image  # noqa: E402
 
 import exr  # noqa: E402
 import kernels  # noqa: E402
+import paper_operators  # noqa: E402
 from paper_measures import read_json  # noqa: E402
 from paper_values import fill  # noqa: E402
 from plots import COLOURS, MARKERS, STYLE  # noqa: E402
@@ -59,7 +60,7 @@ class Drawing:
     def colour(self, panel, path):
         """Tone-mapped by the exposure of the row's first image, and the row's own stops."""
         layer = panel.get("layer", "indirect")
-        image = exr.colour(path, layer)
+        image = sum(exr.colour(path, part) for part in layer.split("+"))
         if self.scale is None:
             self.scale = exposure(image) * 2 ** self.row.get("stops", 0)
         return cropped(srgb(self.scale * image), panel.get("crop", self.row.get("crop")))
@@ -108,6 +109,14 @@ class Drawing:
         row = self.data.select(panel["lights"])[0]
         draw_lights(axes, row["stages"])
 
+    def operators(self, axes, panel):
+        """Of a lit sphere's radiance, against the sine of its half angle."""
+        with plt.rc_context(STYLE):
+            for i, (label, values) in enumerate(paper_operators.curves(panel["operators"]).items()):
+                axes.plot(paper_operators.SINES, values, label=label, color=COLOURS[i], linestyle="--" if "fit" in label else "-")
+        axes.set_xlabel("sin(half angle)")
+        finish(axes, panel)
+
     def curves(self, axes, panel):
         """A metric against the number of lights, a curve a variant."""
         with plt.rc_context(STYLE):
@@ -150,7 +159,7 @@ def finish(axes, panel):
     axes.set_axisbelow(True)
 
 
-PLOTS = ("curves", "bars", "steps")
+PLOTS = ("curves", "bars", "steps", "operators")
 PANELS = ("image", "reference", "error", "channel", "density", "kernels", "lights", "frame", *PLOTS)
 
 

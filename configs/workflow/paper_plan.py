@@ -5,7 +5,7 @@ import copy
 import pathlib
 
 from paper_values import BadExpression, names, placeholders
-from plan import ExperimentError, Plan, complete, judge, pointer, read_json, stage_of
+from plan import ExperimentError, Plan, at, complete, frame_arguments, judge, pointer, read_json, stage_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "configs" / "paper"
@@ -46,7 +46,7 @@ def read_figure(path, size):
     """A figure for a size (parameter -> value), its experiment with all defaults. Throws ExperimentError."""
     raw = read_json(path)
     judge(raw, SCHEMA, path)
-    figure = {key: sized(value, size, path) if key in ("experiment", "sequences") else value for key, value in raw.items()}
+    figure = {key: sized(value, size, path) if key in ("experiment", "sequences", "proxies") else value for key, value in raw.items()}
     if "experiment" in figure:
         figure["experiment"] = complete({"$schema": "vsgltools/experiment/1", **figure["experiment"]}, path)
     check_names(figure, path)
@@ -140,6 +140,39 @@ class Sequences(Plan):
                 "comparison": f"{flicker}/comparison.json"}
 
 
+class SphereProxies(Plan):
+    """Images of one scene by sphere proxies, each compared with its own truth. Its options stand below /proxies."""
+
+    def __init__(self, proxies, path):
+        self.proxies = proxies
+        experiment = {key: proxies[key] for key in ("resolution", "repetitions") if key in proxies}
+        experiment |= {"scenes": {"scene": proxies["scene"]}, "frames": [proxies.get("frame")], "variants": {}}
+        super().__init__(experiment, path)
+
+    def stage(self, tool, label, inputs, options=None, arguments=(), origin=(), **further):
+        return super().stage(tool, label, inputs, options, arguments, ("proxies", *origin), **further)
+
+    def add_frame(self, scene, frame):
+        files, place = self.scene(scene), frame_arguments(frame)
+        gbuffer = f"{self.bake(scene, frame)}/gbuffer.exr"
+        fit = self.stage("proxy-fit", [scene, at(frame)], files, self.proxies.get("proxy_fit", {}), place, ["proxy_fit"])
+        spheres = f"{fit}/proxies.json"
+        before = {}
+        for name, variant in self.proxies["variants"].items():
+            made = {"gbuffer": gbuffer, "proxies": spheres, "scene": files["scene"], **before}
+            shaded = self.stage("proxy-gi", [name], made, variant["proxy_gi"], (), ["variants", name, "proxy_gi"])
+            self.stages[stage_of(f"{shaded}/report.json")]["warm_up"] = True
+            before = {"after": f"{shaded}/report.json"}  # one at a time: their times count
+            options = {"environment": True, **self.proxies["reference"], **variant.get("reference", {})}
+            traced = {**files, "gbuffer": gbuffer, "proxies": spheres}
+            truth = self.stage("reference", [scene, at(frame)], traced, options, place, ["reference"]) + "/reference.exr"
+            image = f"{shaded}/softgi.exr"
+            compared = self.stage("compare", [name], {"test": image, "reference": truth}, None, ["--channels", "direct", "indirect"])
+            self.rows.append({"scene": scene, "frame": frame, "variant": name, "n": None, "error": None, "seed": 0, "image": image,
+                              "reference": truth, "stages": {"proxy-fit": fit, "proxy-gi": shaded},
+                              "comparison": f"{compared}/comparison.json"})
+
+
 class Figure:
     """A figure and its stages."""
 
@@ -150,6 +183,9 @@ class Figure:
         self.rows, self.sequences = [], []
         if "experiment" in self.content:
             self.plans.append(FigureExperiment(self.content["experiment"], path))
+            self.rows = self.plans[-1].rows
+        if "proxies" in self.content:
+            self.plans.append(SphereProxies(self.content["proxies"], path))
             self.rows = self.plans[-1].rows
         if "sequences" in self.content:
             self.plans.append(Sequences(self.content["sequences"], path))

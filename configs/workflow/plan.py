@@ -14,7 +14,7 @@ import jsonschema
 from equal import total_lights
 
 WITHOUT_DENSITY = ("tree", "texels", "two-vsgl")  # methods of vsgl-gen that follow none; the first is its default
-TIMED = ("rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "render")  # that `repetitions` is for
+TIMED = ("rsm-bake", "pdf-build", "vsgl-gen", "ismap", "shade", "render", "proxy-gi")  # that `repetitions` is for
 SCHEMA = pathlib.Path(__file__).resolve().parents[1] / "schema" / "experiment.schema.json"
 
 

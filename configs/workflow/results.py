@@ -38,9 +38,9 @@ def row_times(folders):
     return {**sums, "stages": {tool: stage["time_s"] for tool, stage in stages.items()}, "shading_s": shading, **conditions}
 
 
-def metrics(comparison):
-    """The figures that compare gives for the layer `indirect`, and the standard error of its luminance's bias."""
-    layer = next(layer for layer in read_json(comparison)["layers"] if layer["layer"] == "indirect")
+def metrics(comparison, name="indirect"):
+    """The figures that compare gives for a layer, and the standard error of its luminance's bias."""
+    layer = next(layer for layer in read_json(comparison)["layers"] if layer["layer"] == name)
     return layer["metrics"] | {"luminance_bias_error": layer["luminance_bias"]["standard_error"]}
 
 

@@ -136,11 +136,31 @@ rule render:
 rule reference:
     input: inputs("reference")
     output: outputs("reference", "reference.exr")
-    params: timing=timing("reference"), arguments=arguments("reference"), checkpoint=checkpoint
+    params:
+        timing=timing("reference"), arguments=arguments("reference"), checkpoint=checkpoint, proxies=given("--proxies", "proxies")
     threads: THREADS
     shell:
-        run("reference") + "{input.scene} --gbuffer {input.gbuffer} --config {input.parameters} {params.arguments} "
-        "{params.checkpoint} -o {output[0]}"
+        run("reference") + "{input.scene} --gbuffer {input.gbuffer} {params.proxies} --config {input.parameters} "
+        "{params.arguments} {params.checkpoint} -o {output[0]}"
+
+
+rule proxy_fit:
+    input: inputs("proxy-fit")
+    output: outputs("proxy-fit", "proxies.json")
+    params: timing=timing("proxy-fit"), arguments=arguments("proxy-fit")
+    threads: THREADS
+    shell: run("proxy-fit") + "{input.scene} --config {input.parameters} {params.arguments} -o {output[0]}"
+
+
+rule proxy_gi:
+    input: inputs("proxy-gi")
+    output: outputs("proxy-gi", "softgi.exr")
+    params:
+        timing=timing("proxy-gi"), sky=lambda wildcards, input: input.scene.removesuffix(".json") + "-sky.exr"
+    threads: THREADS
+    shell:
+        run("proxy-gi") + "--gbuffer {input.gbuffer} --proxies {input.proxies} --environment {params.sky} "
+        "--config {input.parameters} -o {output[0]}"
 
 
 rule compare:
