@@ -266,8 +266,8 @@ TEST(Environment, RotatedMapRotatesTheLights) {
   }
 }
 
-// A smooth surface shows the environment at the mirrored view, with the lights' lobes between: their exact sum is
-// up to 0.286 off.
+// A smooth surface shows the environment at the mirrored view, with the lights' lobes between: their exact
+// sum is up to 0.286 off.
 TEST(Environment, SmoothSurfaceMirrorsTheMap) {
   const Environment map = make_map(64, smooth);
   const GBuffer gbuffer = pixels_of(directions(40), 0.02);
