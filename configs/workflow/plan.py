@@ -192,7 +192,8 @@ class Plan:
         aimed = {} if error is None else {"error": error}
         def stage(tool, label, inputs, arguments=(), **further):
             key = tool.replace("-", "_")
-            return self.stage(tool, [scene, at(frame), *label], inputs, pipeline.get(key, {}) | further, arguments, (*origin, key))
+            options = pipeline.get(key, {}) | further
+            return self.stage(tool, [scene, at(frame), *label], inputs, options, arguments, (*origin, key))
 
         def method(key, option="method"):
             return (pipeline.get(key) or {}).get(option)

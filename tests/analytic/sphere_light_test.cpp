@@ -55,7 +55,8 @@ TEST(SphereLight, IrradianceIsThatOfTheClosedForm) {
       const Vec3 v = kCentre - places[i];
       const double d2 = dot(v, v), exact = 0.5 * 30 * kRadius * kRadius / d2 * v.z / std::sqrt(d2);
       const double spread = std::sqrt(static_cast<double>(truth.variance[kSpacing * i].x));
-      EXPECT_NEAR(static_cast<double>(truth.radiance.diffuse[kSpacing * i].x), exact, 5 * spread + 1e-3 * exact)
+      EXPECT_NEAR(static_cast<double>(truth.radiance.diffuse[kSpacing * i].x), exact,
+                  5 * spread + 1e-3 * exact)
           << strategy << " " << i;
       EXPECT_LT(spread, 0.05 * exact);
     }

@@ -188,7 +188,8 @@ class RenderTest:
         """The scene's sphere lights light it as with the tools; the RSM is made for direct light alone."""
         self.tool("scene-gen", "sphere-light", "--resolution", "32x18", "-o", "spheres.json")
         scene = json.loads((self.folder / "spheres.json").read_text())
-        scene["sphere_lights"] += [{"position": [0.2 * i, 0.5, -3], "radius_m": 0.05, "radiance_w_m2_sr": [i, 2, 1]} for i in range(12)]
+        sphere = {"radius_m": 0.05, "radiance_w_m2_sr": [3, 2, 1]}
+        scene["sphere_lights"] += [{"position": [0.2 * i, 0.5, -3], **sphere} for i in range(12)]
         (self.folder / "spheres.json").write_text(json.dumps(scene))
         document = json.loads((ROOT / "configs/pipelines/sphere-lights.json").read_text())
         (self.folder / "spheres").mkdir()

@@ -26,18 +26,19 @@ void check_params(const LightsMethod& method, const LightsParams& params) {
     throw Error(ErrorCode::out_of_range,
                 "kmeans_iterations: " + std::to_string(params.kmeans_iterations) + " is outside 0..20");
   if (!(params.kmeans_normal_weight >= 0 && std::isfinite(params.kmeans_normal_weight)))
-    throw Error(ErrorCode::out_of_range, "kmeans_normal_weight: " +
-                                             std::to_string(params.kmeans_normal_weight) +
-                                             " is not 0 or above; 0 leaves normals aside");
+    throw Error(ErrorCode::out_of_range,
+                "kmeans_normal_weight: " + std::to_string(params.kmeans_normal_weight) +
+                    " is not 0 or above; 0 leaves normals aside");
   if (params.level < -1 || params.level > 64)
     throw Error(ErrorCode::out_of_range,
                 "level: " + std::to_string(params.level) + " is outside -1..64; -1 takes the whole tree");
-  if (params.environment_size < 8 || params.environment_size > 2048 || !is_power_of_two(params.environment_size))
+  if (params.environment_size < 8 || params.environment_size > 2048 ||
+      !is_power_of_two(params.environment_size))
     throw Error(ErrorCode::out_of_range, "environment_size: " + std::to_string(params.environment_size) +
                                              " is not a power of two of 8..2048; try 512");
   if (params.vsl_neighbours < 1 || params.vsl_neighbours > 1000)
-    throw Error(ErrorCode::out_of_range, "vsl_neighbours: " + std::to_string(params.vsl_neighbours) +
-                                             " is outside 1..1000; try 10");
+    throw Error(ErrorCode::out_of_range,
+                "vsl_neighbours: " + std::to_string(params.vsl_neighbours) + " is outside 1..1000; try 10");
   if (!(params.vsl_radius_scale > 0 && std::isfinite(params.vsl_radius_scale)))
     throw Error(ErrorCode::out_of_range, "vsl_radius_scale: " + std::to_string(params.vsl_radius_scale) +
                                              " is not above 0; 1 reaches the k-th nearest light");
@@ -91,7 +92,10 @@ bool is_dark(const Pdf& pdf) {
 
 const std::vector<LightsMethod>& lights_methods() {
   static const std::vector<LightsMethod> methods = {
-      {.name = "vpl", .summary = "virtual point lights: the sampled texels", .run = generate_vpl, .has_passes = true},
+      {.name = "vpl",
+       .summary = "virtual point lights: the sampled texels",
+       .run = generate_vpl,
+       .has_passes = true},
       {.name = "vsl",
        .summary = "virtual spherical lights: the sampled texels, as large as their k nearest are far",
        .run = generate_vsl,
@@ -195,8 +199,9 @@ Lights generate_sphere_lights(const scene::Scene& scene, const LightsParams& par
   check_params(method, params);
   check_source(method, LightsSource::sphere_lights);
   if (scene.sphere_lights.empty())
-    throw Error(ErrorCode::bad_light,
-                "sphere_lights: the scene has none; add one under \"sphere_lights\", or choose another method");
+    throw Error(
+        ErrorCode::bad_light,
+        "sphere_lights: the scene has none; add one under \"sphere_lights\", or choose another method");
   Lights out;
   out.method = method.name;
   out.anchor = scene.anchor;
