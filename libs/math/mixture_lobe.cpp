@@ -34,13 +34,21 @@ MixtureSplit mixture_split(const SpecularReceiver& r, double sharpness) {
   return {x, x * (1 + 0.8596 * x) / (1 + x * (1.8105 + 0.3096 * x))};
 }
 
+Vec3 mixture_turn(const SpecularReceiver& r, Vec3 light, HalfVector h) {
+  const Vec3 view{r.sin_view, 0, r.cos_view}, sum = view + light;
+  const Vec3 facet{h.x, h.y, std::sqrt(std::max(1 - squared(h.x) - squared(h.y), 1e-6))};
+  if (dot(sum, sum) <= 1e-6) return 2 * dot(view, facet) * facet - sum;
+  const Vec3 step = facet - normalise(sum);
+  return 2 * dot(view, step) * facet + length(sum) * step;
+}
+
 MixturePeak mixture_peak(const SpecularReceiver& r, const MixtureSpread& s, Vec3 light, double sharpness,
                          HalfVector half_vector, double tau, double smith) {
   const double share = tau / (tau + s.par);
   const HalfVector h{share * half_vector.x, tau / (tau + s.perp) * half_vector.y};
   const double cos2 = std::max(1 - squared(h.x) - squared(h.y), 1e-6), z = std::sqrt(cos2);
   const double q = std::max(r.sin_view * h.x + r.cos_view * z, cos_min);
-  const Vec3 turn = 2 * q * Vec3{h.x, h.y, z} - Vec3{r.sin_view, 0, r.cos_view} - light;
+  const Vec3 turn = mixture_turn(r, light, h);
   const double determinant = squared(tau * q) +
                              tau * s.par * (cos2 + squared(q) + squared(r.cos_view - q * z)) +
                              squared(s.par) * cos2;

@@ -28,6 +28,9 @@ struct MixtureSplit {
 };
 MixtureSplit mixture_split(const SpecularReceiver& r, double sharpness);
 
+// From the light's axis to the direction that the view is reflected to about the half vector `h`.
+Vec3 mixture_turn(const SpecularReceiver& r, Vec3 light, HalfVector h);
+
 // Peak of the product of light and core.
 struct MixturePeak {
   HalfVector h;

@@ -16,7 +16,7 @@ FastPeak fast_mixture_peak(SpecularReceiver r, vec3 light, float sharpness, vec2
   float cos2 = max(1.0 - dot(h, h), 1e-6);
   float z = sqrt(cos2);
   float q = max(r.sin_view * h.x + r.cos_view * z, COS_MIN);
-  vec3 turn = 2.0 * q * vec3(h, z) - vec3(r.sin_view, 0.0, r.cos_view) - light;
+  vec3 turn = mixture_turn(r, light, half_vector, h, z);
   float tilt = r.cos_view - q * z;
   float determinant = tau * tau * q * q + par * (tau * (cos2 + q * q + tilt * tilt) + par * cos2);
   float widening = (1.0 - share.x) * r.sin_view;

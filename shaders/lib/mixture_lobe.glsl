@@ -48,6 +48,20 @@ struct MixturePeak {
   float scale;     // includes the cosine that foreshortens facets, over that of the view
 };
 
+// From the light's axis to the direction that the view is reflected to about `h`, of height `z`. The axis is such a reflection itself, about
+// `half_vector`, so that the difference of both half vectors tells it. Formed anew from `h`, the direction would err by what rounding takes
+// from half vectors at grazing views, 6e-8 / (2 cos), which a sharp light multiplies. Opposed to the view, the axis has no half vector.
+vec3 mixture_turn(SpecularReceiver r, vec3 light, vec2 half_vector, vec2 h, float z) {
+  vec3 view = vec3(r.sin_view, 0.0, r.cos_view), facet = vec3(h, z);
+  vec3 sum = view + light;
+  float length2 = dot(sum, sum);
+  float inverse = inversesqrt(max(length2, 1e-6));
+  float height = sum.z * inverse;
+  vec3 step = vec3(h - half_vector, z - height);
+  step.z = height > 0.0 ? -dot(h + half_vector, step.xy) / (z + height) : step.z;
+  return length2 > 1e-6 ? 2.0 * dot(view, step) * facet + length2 * inverse * step : 2.0 * dot(view, facet) * facet - sum;
+}
+
 // `half_vector`: of the light's axis. `smith`: part of alpha^2 that widens the mean cosine of visible facets, 1 for GGX as in Smith's
 // masking, 1 / pi for Gaussian slopes.
 MixturePeak mixture_peak(SpecularReceiver r, MixtureSpread s, vec3 light, float sharpness, vec2 half_vector, float tau, float smith) {
@@ -56,8 +70,7 @@ MixturePeak mixture_peak(SpecularReceiver r, MixtureSpread s, vec3 light, float 
   float cos2 = max(1.0 - dot(h, h), 1e-6);
   float z = sqrt(cos2);
   float q = max(r.sin_view * h.x + r.cos_view * z, COS_MIN);  // cosine of half vector and view
-  vec3 w = 2.0 * q * vec3(h, z) - vec3(r.sin_view, 0.0, r.cos_view);
-  vec3 turn = w - light;
+  vec3 turn = mixture_turn(r, light, half_vector, h, z);
   float tilt = r.cos_view - q * z;
   float determinant = tau * tau * q * q + tau * s.par * (cos2 + q * q + tilt * tilt) + s.par * s.par * cos2;
   float widening = (1.0 - share.x) * r.sin_view;

@@ -277,6 +277,10 @@ LibraryFile mixture_lobe_file() {
     const HalfVector h = mixture_half_vector(r, light);
     return mixture_tail(s, mixture_split(r, sharpness).x, {h.x * h.x, h.y * h.y});
   };
+  const auto turn = [](R r, Vec3 light, double) {
+    const HalfVector h = mixture_half_vector(r, light);
+    return Values() << mixture_turn(r, light, {0.7 * h.x, 0.7 * h.y});
+  };
   const Tolerance tolerance{4e-3, 1e-5};
   return {"mixture_lobe",
           mixture_lobe_comp_spv,
@@ -290,7 +294,8 @@ LibraryFile mixture_lobe_file() {
            {"mixture_peak", rows.calls, of_light(peak), {5e-3, 3e-4}},
            {"mixture_tail", rows.calls, of_light(tail), {1e-3, 1e-6}},
            {"mixture_density", rows.calls, of_light(mixture_density), tolerance},
-           {"specular_vmf_mixture", rows.calls, value(specular_vmf_mixture), tolerance, rows.wild}}};
+           {"specular_vmf_mixture", rows.calls, value(specular_vmf_mixture), tolerance, rows.wild},
+           {"mixture_turn", rows.calls, of_light(turn), {3e-4, 2e-5}}}};
 }
 
 LibraryFile reflected_lobe_file() {

@@ -36,6 +36,7 @@ void call_of_light() {
     case 5u: put(mixture_tail(s, mixture_split(r, sharpness).x, h * h)); break;
     case 6u: put(mixture_density(r, light, sharpness)); break;
     case 7u: put(specular_vmf_mixture(r, axis, sharpness)); break;
+    case 8u: put(mixture_turn(r, light, h, 0.7 * h, sqrt(1.0 - 0.49 * dot(h, h)))); break;
   }
 }
 
