@@ -21,7 +21,7 @@ void add_light(Receiver r, ShadingLight light, inout Sums sums) {
   vec3 v = light.position - r.position;
   float squared = dot(v, v);
   float inverse_d = inversesqrt(max(squared, 1e-24));
-  vec3 u = v * inverse_d;
+  vec3 u = squared > 1e-24 ? v * inverse_d : -light.diffuse_axis;  // in the light itself: where it shines from
   vec2 distance2 = effective_distance2(squared, inverse_d, light.variance);
   vec2 cosine = emission_cosine(light, -u);
   Incoming incoming =

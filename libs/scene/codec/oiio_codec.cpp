@@ -13,6 +13,21 @@ constexpr int max_side = 16384;
   throw Error(ErrorCode::texture_unreadable, name + ": " + why);
 }
 
+// Images of floats may hold what 8 bits cannot: NaN, infinities, values outside 0..1.
+void require_in_range(OIIO::ImageInput& input, int channels, const std::string& name) {
+  const OIIO::ImageSpec& spec = input.spec();
+  if (!spec.format.is_floating_point()) return;
+  std::vector<float> values(static_cast<std::size_t>(spec.width) * spec.height * channels);
+  if (!input.read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()))
+    unreadable(name, "the image is damaged: " + input.geterror());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] >= 0 && values[i] <= 1) continue;
+    const std::size_t pixel = i / channels;
+    unreadable(name, "the value " + std::to_string(values[i]) + " at (" + std::to_string(pixel % spec.width) +
+                         "," + std::to_string(pixel / spec.width) + ") is outside 0..1; correct the image");
+  }
+}
+
 Texture convert(OIIO::ImageInput& input, const std::string& name, bool srgb) {
   const OIIO::ImageSpec& spec = input.spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.width > max_side ||
@@ -21,6 +36,7 @@ Texture convert(OIIO::ImageInput& input, const std::string& name, bool srgb) {
   }
   const int channels = std::min(spec.nchannels, 4);
   const std::size_t pixels = static_cast<std::size_t>(spec.width) * spec.height;
+  require_in_range(input, channels, name);
   std::vector<std::uint8_t> values(pixels * channels);
   if (!input.read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, values.data())) {
     unreadable(name, "the image is damaged: " + input.geterror());

@@ -10,11 +10,14 @@ namespace {
 class OpenSight final : public Sight {
  public:
   using Sight::Sight;
-  Seen see(std::span<const Pair> pairs) const override {
-    const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << pairs.size()) - 1);
-    return {all, all};
-  }
+  Seen see(std::span<const Pair> pairs) const override { return {all(pairs), all(pairs)}; }
+  std::uint32_t facing(std::span<const Pair> pairs) const override { return all(pairs); }
   const char* name() const override { return "looks"; }
+
+ private:
+  static std::uint32_t all(std::span<const Pair> pairs) {
+    return static_cast<std::uint32_t>((std::uint64_t{1} << pairs.size()) - 1);
+  }
 };
 
 }  // namespace

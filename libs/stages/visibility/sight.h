@@ -35,7 +35,7 @@ class Sight {
 
   // Of up to kMaxPairs pairs. Both may be called from many threads.
   virtual Seen see(std::span<const Pair> pairs) const = 0;
-  std::uint32_t facing(std::span<const Pair> pairs) const;
+  virtual std::uint32_t facing(std::span<const Pair> pairs) const;
   // What a look at a pair is called in reports.
   virtual const char* name() const = 0;
 

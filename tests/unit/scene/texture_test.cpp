@@ -2,6 +2,8 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <limits>
+
 #include "scene_fixture.h"
 
 namespace vsgl::test {
@@ -35,6 +37,17 @@ TEST_F(Textures, ChannelsBecomeRgba) {
   EXPECT_EQ(round_trip<std::uint8_t>("rgba.png", 4, type, {200, 100, 50, 51}), (Bytes{200, 100, 50, 51}));
   EXPECT_EQ(round_trip<std::uint16_t>("deep.png", 1, OIIO::TypeDesc::UINT16, {65535}),
             (Bytes{255, 255, 255, 255}));
+}
+
+// 8 bits hold neither NaN nor more than 1: nothing of that may become some colour unseen.
+TEST_F(Textures, FloatsOutOfRangeAreRefused) {
+  const auto type = OIIO::TypeDesc::FLOAT;
+  EXPECT_EQ(round_trip<float>("fine.exr", 3, type, {0, 1, 0.2f}), (Bytes{0, 255, 51, 255}));
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1.5f, -0.1f})
+    expect_error(ErrorCode::texture_unreadable, {"bad.exr", "(1,0)"}, [&] {
+      round_trip<float>("bad.exr", 3, type, {0, 0, 0, 0, bad, 0});
+    });
 }
 
 // (3, 4) / 5 at half its length, (1, 0, 0) rounded, and nothing at all.

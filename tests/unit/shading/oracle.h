@@ -134,9 +134,9 @@ inline Radiance vsgl_sum(const GBuffer& gbuffer, std::size_t index, const Lights
   const OraclePixel p(gbuffer, index);
   Radiance sum;
   for (const interop::Light& light : lights.lights) {
-    const Vec3 v = to_double(light.position) - p.position, u = normalise(v),
-               axis = to_double(light.specular_axis);
+    const Vec3 v = to_double(light.position) - p.position, axis = to_double(light.specular_axis);
     const Vec3 normal = to_double(light.normal);
+    const Vec3 u = dot(v, v) > 1e-24 ? normalise(v) : -normal;  // in the light itself: where it shines from
     const double diffuse_sharpness = disk ? 0 : light.diffuse_sharpness, sharpness = light.specular_sharpness;
     const double seen = std::max(dot(normal, -u), 0.0);
     const auto incoming = disk ? vsgl_incoming_disk : vsgl_incoming;
@@ -144,8 +144,10 @@ inline Radiance vsgl_sum(const GBuffer& gbuffer, std::size_t index, const Lights
     const double specular_peak =
         (disk ? seen / std::max(dot(axis, normal), 0.1) : 1) / sg_integral(sharpness);
     const bool glossy = light.ndf != interop::NDF_NONE;
-    const Radiance d = receive_lobe(p, to_double(light.power_diffuse) * diffuse_peak,
-                                    incoming(v, light.variance, normal, diffuse_sharpness), options.lobe);
+    const Radiance d = receive_lobe(
+        p, to_double(light.power_diffuse) * diffuse_peak,
+        incoming(v, light.variance, disk ? normal : to_double(light.diffuse_axis), diffuse_sharpness),
+        options.lobe);
     const Radiance s = receive_lobe(p, to_double(light.power_specular) * specular_peak,
                                     incoming(v, light.variance, axis, sharpness), options.lobe);
     double weight = 0, density = 0;
