@@ -17,7 +17,7 @@ PREFIX ?= /usr/local
 PYTHON ?= /usr/bin/python3
 SOURCES = $(shell git ls-files 'apps/*.cpp' 'libs/*.cpp' 'libs/*.h' 'tests/*.cpp' 'tests/*.h' 'shaders/interop/*.h')
 
-.PHONY: help setup setup-lint configure build demo test experiment paper bench flicker atlas asan tidy format format-check install golden-update clean
+.PHONY: help setup setup-lint configure build demo test experiment paper bench flicker stress atlas asan tidy format format-check install golden-update clean
 
 help: ## show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -63,6 +63,10 @@ flicker: configure ## render and trace 64 frames of a moving light into out/flic
 atlas: configure ## errors of the lobe models over their whole range, float32 against quadrature, as heat maps into out/atlas
 	@cmake --build --preset $(PRESET) -j $(JOBS) --target stability_atlas report
 	@$(PYTHON) tests/stability/atlas.py --bin $(BUILD)/bin --output out/atlas
+
+stress: configure ## drive the tools through extremes into out/stress (ARGS=--quick; ARGS="--groups place")
+	@cmake --build --preset $(PRESET) -j $(shell nproc) --target tools stress_twin
+	@$(PYTHON) configs/workflow/stress.py --bin $(BUILD)/bin --output out/stress $(ARGS)
 
 asan: ## the test run under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory build PRESET=asan

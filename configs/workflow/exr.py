@@ -58,24 +58,41 @@ def _converted(path, part):
         return target.read_bytes()
 
 
-def read(path, part=0):
-    """(channel -> array [height, width], attribute -> value) of a part at full resolution."""
-    data = pathlib.Path(path).read_bytes()
+def _is_plain(data, path):
+    """Whether the file has one part in scan lines without compression."""
     magic, version = struct.unpack_from("<ii", data) if len(data) >= 8 else (0, 0)
     if magic != MAGIC:
         raise BadImage(f"{path}: no EXR file")
-    if version & (TILED | SEVERAL_PARTS):
-        data = _converted(path, part)
+    return not version & (TILED | SEVERAL_PARTS) and _header(data)[0]["compression"] == b"\0"
+
+
+def _lines(data):
+    """The scan lines of a plain file, one array with a field per channel, and the header's attributes."""
     attributes, place = _header(data)
-    if attributes["compression"] != b"\0":
-        data = _converted(path, part)
-        attributes, place = _header(data)
     left, top, right, bottom = struct.unpack("<iiii", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
     types = _types(attributes["channels"])
     line = numpy.dtype([("y", "<i4"), ("bytes", "<i4"), *((name, kind, (width,)) for name, kind in types.items())])
-    lines = numpy.frombuffer(data, line, height, place + 8 * height)
-    return {name: lines[name] for name in types}, attributes
+    return numpy.frombuffer(data, line, height, place + 8 * height), attributes
+
+
+def read(path, part=0):
+    """(channel -> array [height, width], attribute -> value) of a part at full resolution."""
+    data = pathlib.Path(path).read_bytes()
+    lines, attributes = _lines(data if _is_plain(data, path) else _converted(path, part))
+    return {name: lines[name] for name in lines.dtype.names[2:]}, attributes
+
+
+def replace(path, arrays):
+    """Writes channels of a file of one part, not compressed and in scan lines, anew: channel -> array [height, width]."""
+    data = bytearray(pathlib.Path(path).read_bytes())
+    if not _is_plain(data, path):
+        raise BadImage(f"{path}: not one part in scan lines without compression")
+    lines, _ = _lines(data)
+    for name, values in arrays.items():
+        lines[name] = values
+    pathlib.Path(path).unlink()  # of a link the file behind it stays as it is
+    pathlib.Path(path).write_bytes(data)
 
 
 def channels(path, *names, part=0):
