@@ -2,7 +2,6 @@
 
 #include "base/log.h"
 #include "base/tool.h"
-#include "reference/environment.h"
 #include "reference/options.h"
 #include "reference/sphere_lights.h"
 #include "scene/scene_input.h"
@@ -27,16 +26,8 @@ CLI::Option* declare_environment(vsgl::Tool& tool, Arguments& a) {
       app.add_flag("--environment", a.environment,
                    "light of the scene's environment, direct and after one bounce, in place of its lights'");
   tool.input("--proxies", a.proxies, "spheres of proxy-fit, for --blockers")->needs(environment);
-  app.add_option(
-         "--blockers", a.environment_params.blockers,
-         "environment: what hides and reflects its light: scene; meshes: those that proxies stand for; "
-         "spheres: the proxies themselves")
-      ->check(CLI::IsMember({"scene", "meshes", "spheres"}))
-      ->needs(environment);
-  app.add_option("--bounce", a.environment_params.bounce,
-                 "environment: light on what reflects it: shadowed, or unshadowed as proxy-gi has it")
-      ->check(CLI::IsMember({"shadowed", "unshadowed"}))
-      ->needs(environment);
+  vsgl::reference::add_options(app, a.environment_params);
+  for (const char* option : {"--blockers", "--bounce"}) app.get_option(option)->needs(environment);
   return environment;
 }
 

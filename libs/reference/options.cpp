@@ -20,4 +20,15 @@ void add_options(CLI::App& app, ReferenceParams& params) {
       ->check(CLI::PositiveNumber);
 }
 
+void add_options(CLI::App& app, EnvironmentParams& params) {
+  app.add_option(
+         "--blockers", params.blockers,
+         "environment: what hides and reflects its light: scene; meshes: those that proxies stand for; "
+         "spheres: the proxies themselves")
+      ->check(CLI::IsMember({"scene", "meshes", "spheres"}));
+  app.add_option("--bounce", params.bounce,
+                 "environment: light on what reflects it: shadowed, or unshadowed as proxy-gi has it")
+      ->check(CLI::IsMember({"shadowed", "unshadowed"}));
+}
+
 }  // namespace vsgl::reference

@@ -106,7 +106,8 @@ class Animator {
         const ModelJoint& joint = model_.parts[i].joints[k];
         if (joint.swing_deg == 0) continue;
         const auto at = [&](int frame) {
-          const double turns = joint.phase + static_cast<double>(frame) / frames_each_way;
+          const int cycle = 2 * frames_each_way;
+          const double turns = joint.phase + static_cast<double>(frame % cycle) / cycle;
           return joint.rotation_deg + Vec3{joint.swing_deg * std::sin(2 * std::numbers::pi * turns), 0, 0};
         };
         Json keys = Json::array();

@@ -9,6 +9,8 @@ namespace vsgl::scene {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr int rings = 20, sides = 24;  // of a body
+constexpr double start = 0.125;        // of the walk, in turns
 
 // A rounded body from the origin down to -length; half its width and depth at the top and at the bottom.
 struct Body {
@@ -31,7 +33,6 @@ void append(std::string& text, const char* format, double a, double b, double c)
 
 // Rings of vertices between two poles, counter-clockwise from outside.
 std::string body_obj(const Body& body) {
-  constexpr int rings = 20, sides = 24;
   std::string out = "o " + std::string(body.name) + "\n";
   append(out, "v %.6g %.6g %.6g\n", 0, 0, 0);
   for (int ring = 1; ring < rings; ++ring) {
@@ -66,12 +67,12 @@ Vec3 soft_sky(Vec3 d) {
 using Joints = std::vector<ModelJoint>;
 
 void add_part(Model& model, const char* body, const char* material, Joints joints) {
-  model.parts.push_back({std::string(body) + ".obj", material, std::move(joints)});
+  model.parts.push_back({std::string(body) + ".obj", 2 * sides * (rings - 1), material, std::move(joints)});
 }
 
 // A leg and the arm of the other side swing together.
 void add_limbs(Model& model, double side) {
-  const double phase = side > 0 ? 0 : 0.5;
+  const double phase = start + (side > 0 ? 0 : 0.5);
   const ModelJoint hip{{0.1 * side, 0.93, 0}, {}, 26, phase};
   const ModelJoint knee{{0, -0.44, 0}, {16, 0, 0}, 14, phase + 0.25}, ankle{{0, -0.43, 0.02}, {-96, 0, 0}};
   add_part(model, "thigh", "trousers", {hip});
@@ -103,7 +104,7 @@ Model make_figure(const GenerateOptions&) {
   add_part(model, "torso", "shirt", {{{0, 1.54, 0}, {}}});
   add_part(model, "pelvis", "trousers", {{{0, 1.1, 0}, {}}});
   add_part(model, "neck", "skin", {{{0, 1.6, 0}, {}}});
-  add_part(model, "head", "skin", {{{0, 1.79, 0.02}, {}, 4, 0}});
+  add_part(model, "head", "skin", {{{0, 1.79, 0.02}, {}, 4, start}});
   for (const double side : {1.0, -1.0}) add_limbs(model, side);
   model.camera = {{1.6, 1.7, 3.4}, {0, 0.75, 0}, 36};
   model.light = {{-2, 3, 2}, {0, 0.8, 0}, 30};

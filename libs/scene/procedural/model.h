@@ -62,7 +62,8 @@ struct ModelJoint {
 
 // A moving part of a figure: a mesh file of its own, which several may share.
 struct ModelPart {
-  std::string file;  // one of Model::part_files
+  std::string file;       // one of Model::part_files
+  std::size_t triangles;  // of the file
   std::string material;
   std::vector<ModelJoint> joints;  // from the world to the part
 };
@@ -100,6 +101,7 @@ struct Model {
   std::size_t triangle_count() const {
     std::size_t count = 0;
     for (const ModelNode& node : nodes) count += meshes[node.mesh].indices.size() / 3;
+    for (const ModelPart& part : parts) count += part.triangles;
     return count;
   }
 };
