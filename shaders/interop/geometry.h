@@ -69,9 +69,9 @@ struct View {
   vec3 intensity;  // W/sr; directional: W/m^2
   float cos_inner, cos_outer;
   uint width, height;
-  uint samples;  // points a side of a texel at which the intensity is taken
+  uint samples_x, samples_y;  // points across a texel and down it at which the intensity is taken
 };
-VSGL_CHECK_SIZE(View, 96)
+VSGL_CHECK_SIZE(View, 100)
 
 // What one bake reads and writes. Outputs have `stride` texels a row and `stride` rows at least; those
 // outside the view are empty.
@@ -84,7 +84,7 @@ struct Bake {
   uvec2 clamped_at;     // uint: texels whose kappa was clamped
   uint stride, rows;
 };
-VSGL_CHECK_SIZE(Bake, 176)
+VSGL_CHECK_SIZE(Bake, 180)
 
 // Push constants of drawing and baking.
 struct BakePush {

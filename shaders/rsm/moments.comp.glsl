@@ -62,7 +62,7 @@ float kappa(vec3 shading_normal, vec3 geometric_normal, vec3 incident) {
   return min(cosine_ratio(shading_normal, geometric_normal, incident), KAPPA_MAX);
 }
 
-// Mean of kappa times the diffuse reflectance over the texel: one point in each of samples^2 strata, textures at full resolution. Of a rough
+// Mean of kappa times the diffuse reflectance over the texel: one point in each of samples_x samples_y strata, textures at full resolution. Of a rough
 // normal map some normals face away from the light, so that a mean normal would not do, and its colours may go with its normals.
 vec3 reflected_diffuse(View view, ivec2 texel, Surface s, vec3 incident) {
   Triangle triangle = scene_triangle(Words(BAKE.visibility_at).at[uint(texel.y) * view.width + uint(texel.x)] - 1u);
@@ -71,15 +71,15 @@ vec3 reflected_diffuse(View view, ivec2 texel, Surface s, vec3 incident) {
   Hit hit = intersect(view, vec2(texel) + 0.5, triangle);
   NormalFrame frame = normal_frame(hit, material, s.normal);
   vec3 sum = vec3(0.0);
-  for (uint j = 0u; j < view.samples; ++j) {
-    for (uint i = 0u; i < view.samples; ++i) {
-      vec2 jitter = point_of_bits(pcg3d(uvec3(texel, 1u + j * view.samples + i)).xy);
-      vec2 uv = uv_at(hit, (vec2(i, j) + jitter) / float(view.samples) - 0.5);
+  for (uint j = 0u; j < view.samples_y; ++j) {
+    for (uint i = 0u; i < view.samples_x; ++i) {
+      vec2 jitter = point_of_bits(pcg3d(uvec3(texel, 1u + j * view.samples_x + i)).xy);
+      vec2 uv = uv_at(hit, (vec2(i, j) + jitter) / vec2(view.samples_x, view.samples_y) - 0.5);
       sum += kappa(normal_at(frame, material, uv), s.normal, incident) *
              reflectance_at(material, uv, vec2(0.0), vec2(0.0)).diffuse;
     }
   }
-  return sum / float(view.samples * view.samples);
+  return sum / float(view.samples_x * view.samples_y);
 }
 
 Moments empty() {

@@ -45,18 +45,18 @@ float view_falloff(View view, float cosine) {
 }
 
 // [Dachsbacher 2005] Flux (W) through a texel, all of which lands on the surface that the texel sees: there is no surface cosine.
-// Midpoint rule over samples^2 points: relative error of the sum over a view below 1e-4.
+// Midpoint rule over samples_x samples_y points: relative error of the sum over a view below 1e-4.
 vec3 view_flux(View view, uvec2 texel) {
   if (view.kind == VIEW_DIRECTIONAL) return view.intensity * view_texel_area(view);
   float sum = 0.0;
-  for (uint j = 0u; j < view.samples; ++j) {
-    for (uint i = 0u; i < view.samples; ++i) {
-      vec2 q = view_plane(view, vec2(texel) + (vec2(i, j) + 0.5) / float(view.samples));
+  for (uint j = 0u; j < view.samples_y; ++j) {
+    for (uint i = 0u; i < view.samples_x; ++i) {
+      vec2 q = view_plane(view, vec2(texel) + (vec2(i, j) + 0.5) / vec2(view.samples_x, view.samples_y));
       float cosine = inversesqrt(1.0 + dot(q, q));
       sum += view_falloff(view, cosine) * cosine * cosine * cosine;
     }
   }
-  return view.intensity * (sum * view_texel_area(view) / float(view.samples * view.samples));
+  return view.intensity * (sum * view_texel_area(view) / float(view.samples_x * view.samples_y));
 }
 
 #endif

@@ -17,9 +17,10 @@ constexpr double kNear = 1e-4;
 // Room about the bounding sphere in a directional light's view, so that rounding cuts nothing off.
 constexpr double kFrameMargin = 1.001;
 
-// Points a side at which a texel's intensity is taken: the more, the fewer texels there are.
-interop::uint samples_per_side(int width, int height) {
-  return static_cast<interop::uint>(std::clamp(256 / std::max(width, height), 4, 64));
+// Points along a side of a texel at which its intensity is taken: the more, the fewer texels there are on
+// that axis.
+interop::uint samples_along(int texels) {
+  return static_cast<interop::uint>(std::clamp(256 / texels, 4, 64));
 }
 
 void require_sound(const LightSource& light) {
@@ -112,7 +113,8 @@ interop::View light_view(const LightSource& light, double scene_radius, int widt
   interop::View view = light_view(light, width, height);
   const bool parallel = light.type == LightType::directional;
   view.near_far = static_cast<float>(parallel ? 2 * kFrameMargin * scene_radius : kNear * scene_radius);
-  view.samples = samples_per_side(width, height);
+  view.samples_x = samples_along(width);
+  view.samples_y = samples_along(height);
   return view;
 }
 
