@@ -64,6 +64,7 @@ double vmf_hemisphere(double c, double sharpness) {
 double cosine_mean(double c, double sharpness) {
   const double l = sharpness;
   if (l == 0) return 0.25;
+  c = std::clamp(c, -1.0, 1.0);  // unit vectors of float32 may be longer, and l makes much of it
   const double numerator = (l + 2.7360831611) * l + 17.0212977817;
   const double denominator = 2 * (((l + 4.0100826729) * l + 15.2191562631) * l + 76.0878962724);
   const double t = l * std::sqrt(numerator / denominator);

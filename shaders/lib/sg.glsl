@@ -60,6 +60,7 @@ float vmf_hemisphere(float c, float sharpness) {
 // Deviation: a Taylor series below sharpness 0.05 and a form of `t` that does not overflow.
 float cosine_mean(float c, float sharpness) {
   float l = sharpness;
+  c = clamp(c, -1.0, 1.0);  // the product of two unit vectors may be more, and l makes much of it
   float m = max(l, 0.05);
   float em1 = expm1(-m);
   float e = 1.0 + em1;

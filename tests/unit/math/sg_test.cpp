@@ -79,5 +79,14 @@ TEST(Sg, MeanCosineMatchesQuadrature) {
   EXPECT_NEAR(cosine_integral(1, 0), pi, 1e-12);
 }
 
+// Vectors of float32 are unit vectors to 1e-7 only.
+TEST(Sg, MeanCosineOfUnitVectorsThatAreTooLong) {
+  for (const double l : {0.0, 1e-3, 1.0, 1e4, 1e8, sharpness_max})
+    for (const double excess : {1e-15, 1e-7, 1e-3}) {
+      EXPECT_NEAR(cosine_mean(1 + excess, l), cosine_mean(1, l), 1e-12) << l << " " << excess;
+      EXPECT_NEAR(cosine_mean(-1 - excess, l), cosine_mean(-1, l), 1e-12) << l << " " << excess;
+    }
+}
+
 }  // namespace
 }  // namespace vsgl
