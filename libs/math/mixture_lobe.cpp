@@ -18,7 +18,11 @@ MixtureSpread mixture_spread(const SpecularReceiver& r, double sharpness) {
   const double l = std::max(sharpness, 1e-3);
   const double broad = 1 + 0.5 * std::exp(-l);
   const double par = (1 - r.alpha2) * broad * phi(-2 * l) / r.alpha2;
-  return {par, par / r.across_cos2, broad};
+  return {par, par / r.across_cos2, broad, (1 - r.alpha2) / (2 * r.alpha2 * std::max(l, 0.03))};
+}
+
+double mixture_direction(std::uint32_t ndf, double sharpness) {
+  return std::min(std::max(sharpness, 1e-3) / (ndf == interop::NDF_GGX ? 0.3 : 1), 1.0);
 }
 
 HalfVector mixture_half_vector(const SpecularReceiver& r, Vec3 light) {
@@ -44,15 +48,16 @@ Vec3 mixture_turn(const SpecularReceiver& r, Vec3 light, HalfVector h) {
 
 MixturePeak mixture_peak(const SpecularReceiver& r, const MixtureSpread& s, Vec3 light, double sharpness,
                          HalfVector half_vector, double tau, double smith) {
-  const double share = tau / (tau + s.par);
-  const HalfVector h{share * half_vector.x, tau / (tau + s.perp) * half_vector.y};
+  const double direction = mixture_direction(r.ndf, sharpness);
+  const HalfVector h{direction * tau / (tau + s.par) * half_vector.x,
+                     direction * tau / (tau + s.perp) * half_vector.y};
   const double cos2 = std::max(1 - squared(h.x) - squared(h.y), 1e-6), z = std::sqrt(cos2);
   const double q = std::max(r.sin_view * h.x + r.cos_view * z, cos_min);
   const Vec3 turn = mixture_turn(r, light, h);
   const double determinant = squared(tau * q) +
                              tau * s.par * (cos2 + squared(q) + squared(r.cos_view - q * z)) +
                              squared(s.par) * cos2;
-  const double widening = (1 - share) * r.sin_view;
+  const double widening = s.plane / (tau + s.plane) * r.sin_view;
   const double seen = 0.5 * (q + std::sqrt(squared(q) + smith * r.alpha2 * squared(widening)));
   return {h, cos2, 0.5 * std::max(sharpness, 1e-3) * dot(turn, turn),
           s.broad * seen / std::sqrt(determinant)};
@@ -81,7 +86,8 @@ double mixture_density(const SpecularReceiver& r, Vec3 light, double sharpness) 
   const MixtureSplit split = mixture_split(r, sharpness);
   const MixturePeak peak = mixture_peak(r, s, light, sharpness, h, split.tau, 1);
   const double exponent = peak.exponent + flattening * (squared(peak.h.x) + squared(peak.h.y)) / split.tau;
-  const HalfVector slope2{flattening * squared(h.x), flattening * squared(h.y)};
+  const double direction = mixture_direction(r.ndf, sharpness);
+  const HalfVector slope2{flattening * squared(direction * h.x), flattening * squared(direction * h.y)};
   const double core = peak.scale * std::exp(-exponent - 1 / split.x);
   return (core + mixture_tail(s, split.x, slope2)) / (pi * r.alpha2);
 }

@@ -16,8 +16,12 @@ struct HalfVector {
 struct MixtureSpread {
   double par = 0, perp = 0;
   double broad = 1;
+  double plane = 0;  // in the plane of incidence, of a light that is on a plane
 };
 MixtureSpread mixture_spread(const SpecularReceiver& r, double sharpness);
+
+// How much the axis of a light says about the place of the peak, 0..1.
+double mixture_direction(std::uint32_t ndf, double sharpness);
 
 // Projected half vector of view and light (local).
 HalfVector mixture_half_vector(const SpecularReceiver& r, Vec3 light);

@@ -6,12 +6,13 @@
 #include "lib/mixture_lobe.glsl"
 
 // mixture_peak() for tau / f, spreads `par` / f and shares of the half vector, with f free to choose: its scale is `seen` / (2 f root).
+// `hidden`: share of the light's spread on a plane.
 struct FastPeak {
   vec2 h;
   float cos2, exponent, seen, root;
 };
-FastPeak fast_mixture_peak(SpecularReceiver r, vec3 light, float sharpness, vec2 half_vector, vec2 share, float tau, float par,
-                           float smith) {
+FastPeak fast_mixture_peak(SpecularReceiver r, vec3 light, float sharpness, vec2 half_vector, vec2 share, float hidden, float tau,
+                           float par, float smith) {
   vec2 h = half_vector * share;
   float cos2 = max(1.0 - dot(h, h), 1e-6);
   float z = sqrt(cos2);
@@ -19,7 +20,7 @@ FastPeak fast_mixture_peak(SpecularReceiver r, vec3 light, float sharpness, vec2
   vec3 turn = mixture_turn(r, light, half_vector, h, z);
   float tilt = r.cos_view - q * z;
   float determinant = tau * tau * q * q + par * (tau * (cos2 + q * q + tilt * tilt) + par * cos2);
-  float widening = (1.0 - share.x) * r.sin_view;
+  float widening = hidden * r.sin_view;
   float seen = q + sqrt(q * q + smith * r.alpha2 * widening * widening);
   return FastPeak(h, cos2, 0.5 * sharpness * dot(turn, turn), seen, sqrt(determinant));
 }
@@ -36,9 +37,12 @@ float fast_mixture_ggx(SpecularReceiver r, vec3 light, Incoming incoming, vec2 h
   vec2 below = tau + spread * tau_below;
   vec2 inverses = below.yx * (1.0 / (below.x * below.y));
   vec2 share = tau * inverses;
-  FastPeak peak =
-      fast_mixture_peak(r, light, incoming.sharpness, half_vector, share, tau, spread.x * tau_below, 1.0);
-  vec2 slope2 = flattening * half_vector * half_vector;
+  float direction = mixture_direction(NDF_GGX, incoming.sharpness);
+  float plane = 0.5 * flattening * min(incoming.inverse_sharpness, 1.0 / 0.03) * tau_below;
+  FastPeak peak = fast_mixture_peak(r, light, incoming.sharpness, half_vector, direction * share, plane / (tau + plane), tau,
+                                    spread.x * tau_below, 1.0);
+  vec2 slope = direction * half_vector;
+  vec2 slope2 = flattening * slope * slope;
   float core = 0.5 * broad * peak.seen * tau_below * exp(-peak.exponent - tau_below * dot(slope2 * inverses, share) - inverse_x);
 
   float rate = 1.9 * x + 0.25;
@@ -60,8 +64,10 @@ float fast_mixture_ggx(SpecularReceiver r, vec3 light, Incoming incoming, vec2 h
 // specular_vmf_mixture() of Beckmann and Phong.
 float fast_mixture_gaussian(SpecularReceiver r, vec3 light, Incoming incoming, vec2 half_vector, vec2 spread, float broad) {
   vec2 below = 1.0 + spread;
-  vec2 share = below.yx * (1.0 / (below.x * below.y));
-  FastPeak peak = fast_mixture_peak(r, light, incoming.sharpness, half_vector, share, 1.0, spread.x, 1.0 / PI);
+  vec2 share = mixture_direction(r.ndf, incoming.sharpness) * below.yx * (1.0 / (below.x * below.y));
+  float plane = (0.5 / r.alpha2 - 0.5) * min(incoming.inverse_sharpness, 1.0 / 0.03);
+  FastPeak peak =
+      fast_mixture_peak(r, light, incoming.sharpness, half_vector, share, plane / (1.0 + plane), 1.0, spread.x, 1.0 / PI);
   float density = exp(-peak.exponent) * ndf_density(r.ndf, r.alpha2, dot(peak.h, peak.h), peak.cos2);
   SpecularHorizon horizon = fast_horizon(r, light, incoming.sharpness);
   float masking = 1.0 + r.view_lambda + smith_lambda(r.ndf, r.alpha2, horizon.cosine);

@@ -10,6 +10,7 @@
 struct MixtureSpread {
   float par, perp;
   float broad;  // 1, or up to 1.5 for lights so broad that a plane stands for the sphere no more
+  float plane;  // `par` of a light on a plane, which has no largest spread, down to sharpness 0.03: it turns facets out of sight
 };
 
 // Sharpness below 1e-3 counts as that.
@@ -17,7 +18,13 @@ MixtureSpread mixture_spread(SpecularReceiver r, float sharpness) {
   float l = max(sharpness, 1e-3);
   float broad = 1.5 + 0.5 * expm1(-l);
   float par = (1.0 - r.alpha2) * broad * phi(-2.0 * l) / r.alpha2;
-  return MixtureSpread(par, par / r.across_cos2, broad);
+  float plane = (0.5 - 0.5 * r.alpha2) / (r.alpha2 * max(l, 0.03));
+  return MixtureSpread(par, par / r.across_cos2, broad, plane);
+}
+
+// How much the axis of a light says about the place of the peak, 0..1: light of sharpness 0 comes from nowhere.
+float mixture_direction(uint ndf, float sharpness) {
+  return min((ndf == NDF_GGX ? 3.3333333 : 1.0) * max(sharpness, 1e-3), 1.0);
 }
 
 // Projected half vector of view and light.
@@ -38,9 +45,9 @@ MixtureSplit mixture_split(SpecularReceiver r, float sharpness) {
   return MixtureSplit(x, x * (1.0 + 0.8596 * x) / (1.0 + x * (1.8105 + 0.3096 * x)));
 }
 
-// The core and the light have their product's peak near half vector h: weighed by both spreads, exact where either is sharp. There the
-// product has the value e^-`exponent` of its factors' peaks, `scale` is the volume under it relative to the density's peak, both without
-// the density of normals.
+// The core and the light have their product's peak near half vector h: weighed by both spreads and mixture_direction(), exact where either
+// is sharp. There the product has the value e^-`exponent` of its factors' peaks, `scale` is the volume under it relative to the density's
+// peak, both without the density of normals.
 struct MixturePeak {
   vec2 h;          // projected
   float cos2;      // 1 - |h|^2
@@ -66,14 +73,14 @@ vec3 mixture_turn(SpecularReceiver r, vec3 light, vec2 half_vector, vec2 h, floa
 // masking, 1 / pi for Gaussian slopes.
 MixturePeak mixture_peak(SpecularReceiver r, MixtureSpread s, vec3 light, float sharpness, vec2 half_vector, float tau, float smith) {
   vec2 share = tau / (tau + vec2(s.par, s.perp));
-  vec2 h = share * half_vector;
+  vec2 h = mixture_direction(r.ndf, sharpness) * share * half_vector;
   float cos2 = max(1.0 - dot(h, h), 1e-6);
   float z = sqrt(cos2);
   float q = max(r.sin_view * h.x + r.cos_view * z, COS_MIN);  // cosine of half vector and view
   vec3 turn = mixture_turn(r, light, half_vector, h, z);
   float tilt = r.cos_view - q * z;
   float determinant = tau * tau * q * q + tau * s.par * (cos2 + q * q + tilt * tilt) + s.par * s.par * cos2;
-  float widening = (1.0 - share.x) * r.sin_view;
+  float widening = s.plane / (tau + s.plane) * r.sin_view;
   float seen = 0.5 * (q + sqrt(q * q + smith * r.alpha2 * widening * widening));
   return MixturePeak(h, cos2, 0.5 * max(sharpness, 1e-3) * dot(turn, turn), s.broad * seen * inversesqrt(determinant));
 }
@@ -104,6 +111,7 @@ float mixture_density(SpecularReceiver r, vec3 light, float sharpness) {
   MixtureSplit split = mixture_split(r, sharpness);
   MixturePeak peak = mixture_peak(r, s, light, sharpness, h, split.tau, 1.0);
   float exponent = peak.exponent + flattening * dot(peak.h, peak.h) / split.tau + 1.0 / split.x;
+  h *= mixture_direction(r.ndf, sharpness);
   return (peak.scale * exp(-exponent) + mixture_tail(s, split.x, flattening * h * h)) / (PI * r.alpha2);
 }
 

@@ -257,7 +257,7 @@ LibraryFile mixture_lobe_file() {
   using R = const SpecularReceiver&;
   const auto spread = [](R r, Vec3, double sharpness) {
     const MixtureSpread s = mixture_spread(r, sharpness);
-    return Values() << s.par << s.perp << s.broad;
+    return Values() << s.par << s.perp << s.broad << s.plane;
   };
   const auto half_vector = [](R r, Vec3 light, double) {
     const HalfVector h = mixture_half_vector(r, light);
@@ -295,7 +295,14 @@ LibraryFile mixture_lobe_file() {
            {"mixture_tail", rows.calls, of_light(tail), {1e-3, 1e-6}},
            {"mixture_density", rows.calls, of_light(mixture_density), tolerance},
            {"specular_vmf_mixture", rows.calls, value(specular_vmf_mixture), tolerance, rows.wild},
-           {"mixture_turn", rows.calls, of_light(turn), {3e-4, 2e-5}}}};
+           {"mixture_turn", rows.calls, of_light(turn), {3e-4, 2e-5}},
+           {"mixture_direction",
+            combinations({ndfs(), numbers({0, 1e-4, 0.1, 0.29, 0.9, 2})}),
+            [](Arguments& a) {
+              const std::uint32_t ndf = a.take_word();
+              return mixture_direction(ndf, a.take());
+            },
+            {1e-6, 0}}}};
 }
 
 LibraryFile reflected_lobe_file() {

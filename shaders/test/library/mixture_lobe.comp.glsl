@@ -10,7 +10,7 @@ SpecularReceiver take_receiver() {
   return specular_receiver(ndf, alpha, normal, take3());
 }
 
-void put(MixtureSpread s) { put(vec2(s.par, s.perp)); put(s.broad); }
+void put(MixtureSpread s) { put(vec2(s.par, s.perp)); put(vec2(s.broad, s.plane)); }
 void put(MixtureSplit s) { put(vec2(s.x, s.tau)); }
 
 void put_peak(SpecularReceiver r, vec3 light, float sharpness) {
@@ -43,6 +43,7 @@ void call_of_light() {
 void call() {
   switch (FUNCTION) {
     case 0u: put(mixture_incomplete(take())); break;
+    case 9u: put(mixture_direction(take_uint(), take())); break;
     default: call_of_light();
   }
 }
