@@ -46,6 +46,31 @@ inline Indirect shade_by(const Cut& cut, const GBuffer& gbuffer, const Lights& l
   return shade_cut(gbuffer, lights, cut, params, shared_device(), report ? *report : unused);
 }
 
+// Specular BRDF times cosine, 1/sr, with half vectors spread by a far footprint as docs/shading.md tells:
+// alpha^2 grows by the geometric mean of 1 / (2 sharpness) and 1 / (2 sharpness cos^2).
+inline double distant_specular(const SpecularReceiver& r, Vec3 u, double sharpness) {
+  const Vec3 light = specular_local(r, u), h = Vec3{r.sin_view, 0, r.cos_view} + light;
+  if (light.z <= 0) return 0;
+  const double spread = std::min(0.5 / (sharpness * r.cos_view), 1.0), hh = std::max(dot(h, h), 1e-12);
+  const double sin2 = (h.x * h.x + h.y * h.y) / hh, cos2 = h.z * h.z / hh;
+  const bool is_ggx = r.ndf == interop::NDF_GGX;
+  const double alpha2 = is_ggx ? r.alpha2 : std::min(r.alpha2 + spread, 1.0);
+  const double density =
+      is_ggx ? ggx_spread_d(alpha2, spread, sin2, cos2) : ndf_density(r.ndf, alpha2, sin2, cos2);
+  return density / (4 * r.cos_view * (1 + r.view_lambda + smith_lambda(r.ndf, alpha2, light.z)));
+}
+
+// What a cluster's light meets: the forms of the classes that docs/shading.md tells.
+inline FvplReflection cut_reflection(const SpecularReceiver& r, const interop::Cluster& c,
+                                     const FvplView& view) {
+  if (c.normal_sharpness <= interop::CLUSTER_FLAT || !fvpl_is_point(view.sharpness, 0))
+    return fvpl_extended(r, view, static_cast<double>(c.inverse_variance));
+  FvplReflection far = fvpl_point(r, view.u, view.inverse_d2);
+  if (r.ndf != interop::NDF_NONE)
+    far.specular = view.inverse_d2 * distant_specular(r, view.u, view.sharpness);
+  return far;
+}
+
 // Sum over the entries of the pixel's tile that it sees. Normals must not be bumped.
 inline Radiance cut_sum(const GBuffer& gbuffer, std::size_t index,
                         const std::vector<interop::Cluster>& clusters, const Cut& cut) {
@@ -66,10 +91,7 @@ inline Radiance cut_sum(const GBuffer& gbuffer, std::size_t index,
     const FvplView view =
         fvpl_view(to_double(c.position) - p.position, static_cast<double>(c.inverse_variance));
     const Vec3 emission = fvpl_emission(c, view.u, view.inverse_d2);
-    const bool is_far = c.normal_sharpness > interop::CLUSTER_FLAT && fvpl_is_point(view.sharpness, 0);
-    const FvplReflection reflection = is_far
-                                          ? fvpl_point(r, view.u, view.inverse_d2)
-                                          : fvpl_extended(r, view, static_cast<double>(c.inverse_variance));
+    const FvplReflection reflection = cut_reflection(r, c, view);
     sum.diffuse += to_double(p.surface.diffuse) * emission * reflection.diffuse;
     sum.specular += to_double(p.surface.specular) * emission * reflection.specular;
   }
