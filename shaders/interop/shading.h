@@ -100,7 +100,7 @@ struct DirectPush {
   uint receivers;  // in the list
   uint stride;     // texels a row of the layer
 };
-VSGL_CHECK_SIZE(DirectPush, 116)
+VSGL_CHECK_SIZE(DirectPush, 120)
 
 // Specialisation constants of the shading kernels.
 VSGL_CONST uint SHADING_RECEIVER_ID =
