@@ -1,17 +1,15 @@
 #!/usr/bin/env python3
 """Methods side by side, scene by scene: error and time of each variant with an equal number of lights, and its error after an
 equal time, which is that of one variant with so many lights. results.py calls this for experiments that say `equal`; as a program
-it prints the tables of an experiment's results.json in Markdown.
+it prints the tables of an experiment's results.json in Markdown."""
 
-Usage: equal.py RESULTS.json"""
-
+import argparse
 import dataclasses
 import functools
 import json
 import math
 import pathlib
 import statistics
-import sys
 
 NEAR = 1.25  # an image stands for an equal time if its own differs by no more than this factor
 PIPELINES = pathlib.Path(__file__).resolve().parents[1] / "schema" / "pipeline.schema.json"
@@ -156,11 +154,14 @@ def markdown(table):
 
 
 def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__.split("\n\n")[1])
-    tables = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))["equal"]
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("results", type=pathlib.Path, help="results.json of an experiment")
+    results = parser.parse_args().results
+    if not results.is_file():
+        parser.error(f"{results}: no such file; name the results.json that an experiment has written")
+    tables = json.loads(results.read_text(encoding="utf-8")).get("equal")
     if not tables:
-        sys.exit(f"equal: {sys.argv[1]}: its experiment has no key \"equal\"")
+        parser.error(f"{results}: its experiment has no key \"equal\"")
     print("\n\n".join(markdown(table) for table in tables))
 
 
