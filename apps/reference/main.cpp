@@ -1,61 +1,13 @@
 // reference scene.json -o reference.exr: ground truth of one-bounce light by ray tracing.
 
 #include "base/log.h"
-#include "base/tool.h"
-#include "reference/options.h"
+#include "options.h"
 #include "reference/sphere_lights.h"
-#include "scene/scene_input.h"
 #include "stages/rsm/options.h"
 
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Arguments {
-  vsgl::scene::SceneInput scene;
-  fs::path gbuffer, proxies, output;
-  std::string resolution;
-  bool sphere_lights = false, environment = false;
-  vsgl::reference::ReferenceParams params;
-  vsgl::reference::EnvironmentParams environment_params;
-};
-
-CLI::Option* declare_environment(vsgl::Tool& tool, Arguments& a) {
-  CLI::App& app = tool.app();
-  CLI::Option* environment =
-      app.add_flag("--environment", a.environment,
-                   "light of the scene's environment, direct and after one bounce, in place of its lights'");
-  tool.input("--proxies", a.proxies, "spheres of proxy-fit, for --blockers")->needs(environment);
-  vsgl::reference::add_options(app, a.environment_params);
-  for (const char* option : {"--blockers", "--bounce"}) app.get_option(option)->needs(environment);
-  return environment;
-}
-
-void declare(vsgl::Tool& tool, Arguments& a) {
-  CLI::App& app = tool.app();
-  a.scene.declare(tool);
-  CLI::Option* gbuffer = tool.input("--gbuffer", a.gbuffer,
-                                    "pixels of rsm-bake to trace (default: baked here, on a Vulkan device)");
-  app.add_option("--resolution", a.resolution,
-                 "pixels of the image, WIDTHxHEIGHT (default: the scene's); keeps the vertical field of view")
-      ->excludes(gbuffer);
-  tool.output("-o,--output", a.output, "radiance and its variance to write")->required();
-  vsgl::reference::add_options(app, a.params);
-  CLI::Option* spheres =
-      app.add_flag("--sphere-lights", a.sphere_lights,
-                   "direct light of the scene's sphere lights in place of one-bounce light");
-  CLI::Option* environment = declare_environment(tool, a);
-  environment->excludes(spheres);
-  for (const char* limit : {"--target-error", "--time-budget"})
-    app.get_option(limit)->excludes(spheres)->excludes(environment);
-  CLI::Option* checkpoint = tool.state(
-      "--checkpoint", a.params.checkpoint,
-      "file to save the work in and to take it up again from; stays when all is done, for more --samples");
-  checkpoint->excludes(spheres)->excludes(environment);
-  tool.keep_from_provenance(app.add_option("--checkpoint-interval", a.params.checkpoint_interval_s,
-                                           "seconds from one saving to the next")
-                                ->check(CLI::NonNegativeNumber));
-}
+using vsgl::reference_tool::Arguments;
 
 vsgl::GBuffer bake(const vsgl::Tool& tool, vsgl::scene::Scene& scene, const std::string& resolution,
                    vsgl::Report& report) {
@@ -112,7 +64,7 @@ vsgl::Exit run(vsgl::Tool& tool, Arguments& a, vsgl::Report& report, vsgl::Outpu
 int main(int argc, char** argv) {
   vsgl::Tool tool("reference", "traces ground truth of one-bounce light, with its variance");
   Arguments arguments;
-  declare(tool, arguments);
+  vsgl::reference_tool::declare(tool, arguments);
   return tool.run(argc, argv, [&](vsgl::Report& report, vsgl::OutputSet& outputs) {
     return run(tool, arguments, report, outputs);
   });

@@ -24,6 +24,16 @@ struct Case {
   double peak;  // of the exact values over the offsets
 };
 
+// Adds the cases of one receiver and sharpness whose integral is above 1% of their peak.
+void append_visible(std::vector<Case>& all, std::vector<Case> group) {
+  double peak = 0;
+  for (const Case& c : group) peak = std::max(peak, c.exact);
+  for (Case& c : group) {
+    c.peak = peak;
+    if (c.exact > 0.01 * peak) all.push_back(c);
+  }
+}
+
 std::vector<Case> cases(std::uint32_t ndf, const std::vector<double>& alphas,
                         const std::vector<double>& degrees, const std::vector<double>& sharpnesses) {
   std::vector<Case> all;
@@ -35,15 +45,9 @@ std::vector<Case> cases(std::uint32_t ndf, const std::vector<double>& alphas,
       const double lobe = receiver.across * receiver.cos_view;
       for (const double sharpness : sharpnesses) {
         std::vector<Case> group;
-        double peak = 0;
-        for (const Vec3 axis : test::offset_axes({-view.x, 0, view.z}, lobe, sharpness)) {
+        for (const Vec3 axis : test::offset_axes({-view.x, 0, view.z}, lobe, sharpness))
           group.push_back({receiver, axis, sharpness, reference.integral(axis, sharpness), 0});
-          peak = std::max(peak, group.back().exact);
-        }
-        for (Case& c : group) {
-          c.peak = peak;
-          if (c.exact > 0.01 * peak) all.push_back(c);
-        }
+        append_visible(all, std::move(group));
       }
     }
   return all;
@@ -169,18 +173,13 @@ std::vector<Case> random_cases(std::uint32_t ndf, int groups) {
     const double lobe = receiver.across * receiver.cos_view;
     const double width = std::min(std::sqrt(1 / std::max(sharpness, 0.5) + 1 / std::max(lobe, 0.5)), 1.0);
     std::vector<Case> group;
-    double peak = 0;
     for (int k = 0; k < 9; ++k) {
       const double offset = std::min(uniform(0, 4) * width, 0.75 * pi), side = uniform(0, 2 * pi);
       const Vec3 axis = std::cos(offset) * mirror +
                         std::sin(offset) * (std::cos(side) * cross(mirror, across) + std::sin(side) * across);
       group.push_back({receiver, axis, sharpness, reference.integral(axis, sharpness), 0});
-      peak = std::max(peak, group.back().exact);
     }
-    for (Case& c : group) {
-      c.peak = peak;
-      if (c.exact > 0.01 * peak) all.push_back(c);
-    }
+    append_visible(all, std::move(group));
   }
   return all;
 }
