@@ -34,7 +34,7 @@ struct MetropolisPush {
 };
 
 struct FilterPush {
-  interop::uvec2 kernels_at, moments_at, lights_at;
+  interop::uvec2 kernels_at, finest_at, coarser_at, lights_at;
   std::uint32_t count, layer;
   std::int32_t top;
   float variance_floor;
@@ -58,16 +58,21 @@ interop::KernelSetup make_setup(const Buffer& densities, std::span<const Density
           static_cast<float>(params.scale)};
 }
 
-// Filters the kernels of a chunk that lie in the layer of `pyramid`; `lights` keeps those of other layers.
+// Filters the kernels that lie in the layer of `pyramid`; `lights` keeps those of other layers. The finest
+// level has a buffer of its own: at 4096 texels a side all levels together would be more than devices
+// allocate at once.
 void filter_layer(const gpu::ComputePipeline& pipeline, FilterPush push, std::span<const Moments> pyramid,
                   gpu::Device& device, Report& report) {
-  const Buffer moments = Buffer::from(device, pyramid);
-  push.moments_at = address_of(moments);
+  const int size = 1 << push.top;
+  const std::size_t texels = pyramid_offset(size, 1);
+  const Buffer finest = Buffer::from(device, pyramid.first(texels)),
+               coarser = Buffer::from(device, pyramid.subspan(texels));
+  push.finest_at = address_of(finest);
+  push.coarser_at = address_of(coarser);
   gpu::Commands commands(device);
   if (needs_encoding(push.lobe_filter)) {
-    const int size = 1 << push.top;
-    encode_lobes(moments, pyramid_offset(size, 1), push.lobe_filter, device, commands);
-    merge_levels(moments, size, device, commands);
+    encode_lobes(finest, texels, push.lobe_filter, device, commands);
+    merge_levels(finest, coarser, size, device, commands);
   }
   commands.dispatch("filter", pipeline, {}, push, {gpu::groups_for(push.count, group_size), 1, 1});
   commands.submit(report);
@@ -127,6 +132,7 @@ std::vector<Light> filter_moments(std::span<const Kernel> kernels,
     if (std::none_of(kernels.begin(), kernels.end(), [layer](const Kernel& k) { return k.layer == layer; }))
       continue;
     const FilterPush push{address_of(kernel_buffer),
+                          {},
                           {},
                           address_of(lights),
                           static_cast<std::uint32_t>(kernels.size()),

@@ -68,10 +68,12 @@ void encode_lobes(const gpu::Buffer& moments, std::size_t texels, std::uint32_t 
   commands.dispatch("lobes", pipeline, {}, push, {std::min(groups, encode_row), rows, 1});
 }
 
-void merge_levels(const gpu::Buffer& pyramid, int size, gpu::Device& device, gpu::Commands& commands) {
+void merge_levels(const gpu::Buffer& finest, const gpu::Buffer& coarser, int size, gpu::Device& device,
+                  gpu::Commands& commands) {
   const gpu::ComputePipeline pipeline(device, merge_comp_spv, {}, sizeof(interop::MergePush));
   const auto level_at = [&](int level) {
-    return address_of(pyramid, pyramid_offset(size, level) * sizeof(interop::Moments));
+    return level == 0 ? address_of(finest)
+                      : address_of(coarser, pyramid_offset(size / 2, level - 1) * sizeof(interop::Moments));
   };
   for (int level = 1; level < pyramid_levels(size); ++level)
     merge_step(pipeline, level_at(level - 1), level_at(level), size >> level, commands);

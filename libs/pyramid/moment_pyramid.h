@@ -35,7 +35,9 @@ bool needs_encoding(std::uint32_t lobe_filter);
 // LOBE_*.
 void encode_lobes(const gpu::Buffer& moments, std::size_t texels, std::uint32_t lobe_filter,
                   gpu::Device& device, gpu::Commands& commands);
-// Appends the steps that make all other levels of `pyramid`, in the layout of math/pyramid.h, anew.
-void merge_levels(const gpu::Buffer& pyramid, int size, gpu::Device& device, gpu::Commands& commands);
+// Appends the steps that make all other levels of a pyramid of `size` texels a side anew: `coarser`, one
+// after another.
+void merge_levels(const gpu::Buffer& finest, const gpu::Buffer& coarser, int size, gpu::Device& device,
+                  gpu::Commands& commands);
 
 }  // namespace vsgl

@@ -41,8 +41,13 @@ struct Incoming {
   float decay, phi;     // e^-sharpness and (1 - e^-sharpness) / sharpness
 };
 
-// vsgl_product() of lib/vsgl.glsl: fluence = amplitude phi (1 + decay).
+// vsgl_product() of lib/vsgl.glsl: fluence = amplitude phi (1 + decay). Variance times sharpness comes to 1e21 m^2, whose square float32
+// does not hold: there areas are counted in 1e15 m^2.
 Incoming incoming_light(vec3 u, float d2, float variance, float inverse_variance, vec3 emission_axis, float emission_sharpness) {
+  bool huge = d2 + variance * emission_sharpness > 1e15;
+  float unit = huge ? 1e-15 : 1.0;
+  d2 *= unit;
+  variance *= unit;
   float b = variance * emission_sharpness;
   vec3 m = d2 * u - b * emission_axis;
   float q = sqrt(dot(m, m)) + 1e-18;
@@ -52,7 +57,7 @@ Incoming incoming_light(vec3 u, float d2, float variance, float inverse_variance
   float exponent = -emission_sharpness * d2 * (q * inverse) * dot(turn, turn);
   Incoming light;
   light.axis = m * (total * inverse);
-  light.sharpness = clamp(q * inverse_variance, SHARPNESS_MIN, SHARPNESS_MAX);
+  light.sharpness = clamp(q * (huge ? 1e15 : 1.0) * inverse_variance, SHARPNESS_MIN, SHARPNESS_MAX);
   light.inverse_sharpness = min(variance * (total * inverse), 1.0 / SHARPNESS_MIN);
   light.amplitude = exp(exponent) * inverse_variance;
   float decayed = fast_expm1(-light.sharpness);

@@ -16,7 +16,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pyr
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Lights { Light at[]; };
 layout(push_constant, scalar) uniform Push {
   uvec2 kernels_at;
-  uvec2 moments_at;  // the pyramid of `layer`; kernels of other layers are left alone
+  uvec2 finest_at;   // level 0 of the pyramid of `layer`; kernels of other layers are left alone
+  uvec2 coarser_at;  // its other levels
   uvec2 lights_at;
   uint count;
   uint layer;
@@ -26,7 +27,8 @@ layout(push_constant, scalar) uniform Push {
 };
 
 Moments moments_of(int level, ivec2 texel) {
-  return Pyramid(moments_at).at[pyramid_offset(1 << top, level) + uint((texel.y << (top - level)) + texel.x)];
+  const uint i = uint((texel.y << (top - level)) + texel.x);
+  return level == 0 ? Pyramid(finest_at).at[i] : Pyramid(coarser_at).at[pyramid_offset(1 << (top - 1), level - 1) + i];
 }
 
 void add_level(inout MomentsSum sum, vec2 centre, int level, float share) {
@@ -54,7 +56,7 @@ void main() {
   if (kernel.layer != layer) return;
   Light light = Lights(lights_at).at[i];
   Moments moments = filter_moments(kernel);
-  if (lobe_filter == LOBE_NONE) take_lobes(moments, Pyramid(moments_at).at[kernel.texel]);
+  if (lobe_filter == LOBE_NONE) take_lobes(moments, Pyramid(finest_at).at[kernel.texel]);
   set_moments(light, moments, kernel.power_scale, variance_floor, lobe_filter);
   light.level = kernel.level;
   light.texel = kernel.texel;

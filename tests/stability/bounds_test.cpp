@@ -119,6 +119,36 @@ TEST(Bounds, FluenceOfAFacingVsgl) {
   report("5. the same in the kernels", worst(call_kernel(device, kernel_incoming, rows, 5)), 3e-5);
 }
 
+// Clusters of up to 30 km and lobes of up to the greatest sharpness: their product, 1e21 m^2, squared is
+// beyond float32.
+TEST(Bounds, HugeSharpVsgl) {
+  gpu::Device device = make_test_device();
+  std::vector<Row> rows;
+  std::vector<double> fluence, axis_x;
+  for (const float d : {1.0f, 1e3f, 1e5f})
+    for (const float variance : {1.0f, 1e6f, 1e9f})
+      for (const double sharpness : {2.2925, 1e10, 0x1p40})
+        for (const double tilt : {0.0, 0.5, 4.0}) {  // in widths of the emission lobe
+          const Row axis = direction({tilt / std::sqrt(sharpness), 0, 1});
+          rows.push_back({0, 0, -d, variance, axis[0], axis[1], axis[2], static_cast<float>(sharpness)});
+          const VsglIncoming light = vsgl_incoming({0, 0, -double{d}}, double{variance},
+                                                   {axis[0], axis[1], axis[2]}, double{rows.back().back()});
+          fluence.push_back(light.fluence);
+          axis_x.push_back(light.axis.x);
+        }
+  const auto error = [&](const std::vector<float>& values) {
+    return std::max(worst_of(values, 5, 0, axis_x, {0, 1}), worst_of(values, 5, 4, fluence, {1, 0}));
+  };
+  constexpr double bound = 1e-3;  // a rough device rounds u by a tenth of the sharpest lobe's width
+  for (const bool rough : {false, true}) {
+    report("8. huge and sharp VSGL", error(call_library(device, "vsgl", "vsgl_incoming", rows, 5, rough)),
+           bound);
+    report("8. the same in the kernels", error(call_kernel(device, kernel_incoming, rows, 5, 0, rough)),
+           bound);
+  }
+  EXPECT_GT(error(call_kernel(device, unscaled_incoming_form, rows, 5)), 10 * bound);
+}
+
 TEST(Bounds, ClampedCosine) {
   gpu::Device device = make_test_device();
   std::vector<Row> rows;
@@ -198,7 +228,7 @@ TEST(Bounds, DegenerateInput) {
       combinations({offsets,
                     numbers({1e-12, 1, 1e9}),
                     {direction({0, 0, 1}), direction({0, 0, -1}), direction({-1, 0, 0})},
-                    numbers({0, 1e-6, 2.2925, 1e4, 1e10})});
+                    numbers({0, 1e-6, 2.2925, 1e4, 1e10, 0x1p40})});
   const std::vector<Row> rows = combinations({receivers, lights});
   for (const SpecularLobe& lobe : specular_lobes())
     for (const bool rough : {false, true}) {

@@ -18,7 +18,8 @@ inline constexpr std::uint32_t published_sg_form = 4, published_asg_form = 5, pu
                                published_ndf_filter_form = 7, published_normalised_form = 8,
                                published_cosine_mean_form = 10, published_cosine_difference_form = 11,
                                pulled_out_form = 12, sg_cosine_form = 13, hemisphere_form = 14,
-                               cosine_mean_form = 15, library_incoming = 9, published_fluence_form = 16;
+                               cosine_mean_form = 15, library_incoming = 9, published_fluence_form = 16,
+                               unscaled_incoming_form = 17;
 
 // `lobe`: interop::SPECULAR_LOBE_*.
 std::vector<float> call_kernel(gpu::Device& device, std::uint32_t number, const std::vector<Row>& rows,

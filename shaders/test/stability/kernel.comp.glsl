@@ -78,6 +78,20 @@ void put_incoming() {
   put(fluence(light));
 }
 
+// incoming_light() with the squares of d2 and variance times sharpness.
+void put_unscaled_incoming() {
+  vec3 v = take3();
+  float variance = take();
+  vec3 axis = take3();
+  float sharpness = take();
+  float d2 = dot(v, v), b = variance * sharpness;
+  vec3 u = v * inversesqrt(d2), m = d2 * u - b * axis, turn = u + axis;
+  float q = sqrt(dot(m, m)) + 1e-18, total = q + b + d2, inverse = 1.0 / (q * total);
+  put(m * (total * inverse));
+  put(clamp(q / variance, SHARPNESS_MIN, SHARPNESS_MAX));
+  put(exp(-sharpness * d2 * (q * inverse) * dot(turn, turn)) * (total * inverse));
+}
+
 void put_library_fluence() {
   VsglIncoming light = vsgl_incoming(take3(), take(), take3(), take());
   put(light.fluence);
@@ -106,6 +120,7 @@ void call() {
     case 14u: put(vmf_hemisphere(take(), take())); return;
     case 15u: put(cosine_mean(take(), take())); return;
     case 16u: put(published_fluence(take3(), take(), take3(), take())); return;
+    case 17u: put_unscaled_incoming(); return;
   }
   // All of them get the light's axis as the kernels have it: rounded once more.
   Receiver r = take_receiver();
