@@ -68,12 +68,12 @@ std::vector<PlacedNode> place_nodes(const SceneSpec& spec, const MeshFiles& file
   std::vector<PlacedNode> out;
   for (const MeshSpec& mesh : spec.meshes) {
     Mat4 outer = translation(-anchor);
-    for (const Mat4& step : mesh.transforms) outer = outer * step;
+    for (const Mat4& step : mesh.transforms) outer = compose(outer, step);
     const MeshFile& file = files.at(mesh.file);
     const std::size_t first = out.size();
     for (const MeshNode& node : file.nodes) {
       const Mat4& parent = node.parent < 0 ? outer : out[first + node.parent].transform;
-      out.push_back({&mesh, &file, &node, parent * node.local});
+      out.push_back({&mesh, &file, &node, compose(parent, node.local)});
     }
   }
   return out;

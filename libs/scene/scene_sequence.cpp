@@ -24,11 +24,10 @@ struct Bounds {
   bool empty() const { return low.x > high.x; }
 };
 
-// The centre of the box rounded to a grid of about a millionth of its half diagonal, a power of two: moving
-// the scene by a multiple of the grid moves the anchor by exactly as much, so that positions relative to it
-// keep every bit; moved by anything else, its radius about the anchor stays the same to a millionth. The two
-// odd constants keep decimal sizes off the points where rounding changes its mind.
-Vec3 choose_anchor(const Bounds& bounds) {
+// The centre of the box rounded to a grid of about a millionth of its half diagonal, a power of two, so that
+// subtracting it rounds few vertices. The two odd constants keep decimal sizes off the points where rounding
+// changes its mind.
+Vec3 snapped_centre(const Bounds& bounds) {
   const double half_diagonal = length(bounds.high - bounds.low) / 2;
   const double grid = std::exp2(std::floor(std::log2(std::max(half_diagonal, 1e-30) * 1.1371)) - 20);
   const auto snap = [grid](double low, double high) {
@@ -101,6 +100,20 @@ void for_each_vertex(const std::vector<SceneSpec>& specs, const MeshFiles& files
   }
 }
 
+// Where the scene's own origin is, as far as its first mesh tells: its outermost transform, if that does not
+// turn it, or else the world's.
+Vec3 scene_origin(const SceneSpec& spec, const MeshFiles& files) {
+  if (spec.meshes.empty()) return {};
+  const MeshSpec& mesh = spec.meshes.front();
+  const std::vector<MeshNode>& nodes = files.at(mesh.file).nodes;
+  if (mesh.transforms.empty() && nodes.empty()) return {};
+  const Mat4& outermost = mesh.transforms.empty() ? nodes.front().local : mesh.transforms.front();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (i != j && outermost.m[i][j] != 0) return {};
+  return outermost.point({});
+}
+
 double radius_of(const std::vector<Instance>& instances) {
   double radius = 0;
   for (const Instance& instance : instances)
@@ -146,11 +159,14 @@ struct SceneSequence::State {
     common.radius = radius();
   }
 
+  // Found from the scene's own origin: where the scene was moved as a whole, the anchor keeps its place in
+  // it, and positions relative to it are the same numbers.
   Vec3 anchor() const {
     if (specs.front().anchor) return *specs.front().anchor;
+    const Vec3 origin = scene_origin(specs.front(), files);
     Bounds bounds;
-    for_each_vertex(specs, files, {}, animation.moves_meshes(), [&](Vec3 p) { bounds.add(p); });
-    return bounds.empty() ? Vec3{} : choose_anchor(bounds);
+    for_each_vertex(specs, files, origin, animation.moves_meshes(), [&](Vec3 p) { bounds.add(p); });
+    return bounds.empty() ? Vec3{} : origin + snapped_centre(bounds);
   }
 
   double radius() const {

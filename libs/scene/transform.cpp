@@ -1,5 +1,6 @@
 #include "scene/transform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -29,6 +30,14 @@ void sin_cos_deg(double degrees, double& sine, double& cosine) {
 
 Vec3 row(const Mat4& m, int i) {
   return {m.m[i][0], m.m[i][1], m.m[i][2]};
+}
+
+// Rounded to four units in the last place of the larger term, unless one is 0.
+double cancelled_sum(double a, double b) {
+  const double larger = std::max(std::abs(a), std::abs(b));
+  if (a == 0 || b == 0 || !std::isnormal(larger)) return a + b;
+  const double step = std::ldexp(1.0, std::ilogb(larger) - 50);
+  return std::round((a + b) / step) * step;
 }
 
 }  // namespace
@@ -66,6 +75,13 @@ Mat4 rotation_xyz_deg(Vec3 angles) {
   const Mat4 y{{{cy, 0, sy, 0}, {0, 1, 0, 0}, {-sy, 0, cy, 0}, {0, 0, 0, 1}}};
   const Mat4 z{{{cz, -sz, 0, 0}, {sz, cz, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
   return z * y * x;
+}
+
+Mat4 compose(const Mat4& outer, const Mat4& inner) {
+  Mat4 out = outer * inner;
+  const Vec3 moved{inner.m[0][3], inner.m[1][3], inner.m[2][3]};
+  for (int i = 0; i < 3; ++i) out.m[i][3] = cancelled_sum(dot(row(outer, i), moved), outer.m[i][3]);
+  return out;
 }
 
 double determinant(const Mat4& m) {

@@ -13,6 +13,10 @@ Mat4 rotation(const std::array<double, 4>& quaternion);
 // About x first, then y, then z, all fixed axes; angles in degrees.
 Mat4 rotation_xyz_deg(Vec3 angles);
 
+// outer * inner. Where translations cancel, only digits that both of them have are kept: what remains of two
+// large ones does not depend on how these were rounded.
+Mat4 compose(const Mat4& outer, const Mat4& inner);
+
 // Of the upper left 3x3 block.
 double determinant(const Mat4& m);
 // The inverse transpose of the upper left 3x3 block times |determinant|: takes normals to the right side,

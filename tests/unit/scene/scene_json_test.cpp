@@ -85,17 +85,25 @@ TEST_F(SceneJson, Transforms) {
   bad(ErrorCode::json_out_of_range, {{"translation", {0, 0}}}, "translation");
 }
 
-TEST_F(SceneJson, ExactOffsetsKeepEveryBit) {
+// Moved as a whole, by transforms around those that are there or as part of them.
+TEST_F(SceneJson, OffsetsKeepEveryBit) {
+  const Vec3 offset{100000.1, -3000, 33333.33};
   const Json tilt{{"rotation_deg", {10, 20, 30}}, {"translation", {0.1, 0.2, 0.3}}};
-  const Scene near = folder.load({{"meshes", {{{"file", "mesh.gltf"}, {"transform", {tilt}}}}}});
-  const Scene far = folder.load(
-      {{"meshes",
-        {{{"file", "mesh.gltf"}, {"transform", {{{"translation", {1000, -3000, 500000}}}, tilt}}}}}});
-  EXPECT_EQ(far.anchor, (near.anchor + Vec3{1000, -3000, 500000}));
-  EXPECT_EQ(far.radius, near.radius);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(near.instances[0].vertices[i].position, far.instances[0].vertices[i].position);
-    EXPECT_EQ(near.instances[0].vertices[i].normal, far.instances[0].vertices[i].normal);
+  const auto load = [&](const Json& transforms) {
+    return folder.load({{"meshes", {{{"file", "mesh.gltf"}, {"transform", transforms}}}}});
+  };
+  const auto moved_by = [](Vec3 place) { return Json{{"translation", {place.x, place.y, place.z}}}; };
+  const Vec3 own{0.1, 0.2, 0.3};
+  const std::pair<Json, Json> pairs[] = {{Json{tilt}, {moved_by(offset), tilt}},
+                                         {{moved_by(own), tilt}, {moved_by(own + offset), tilt}}};
+  for (const auto& [here, there] : pairs) {
+    const Scene near = load(here), far = load(there);
+    EXPECT_LT(length(far.anchor - near.anchor - offset), 1e-10);
+    EXPECT_EQ(far.radius, near.radius);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(near.instances[0].vertices[i].position, far.instances[0].vertices[i].position);
+      EXPECT_EQ(near.instances[0].vertices[i].normal, far.instances[0].vertices[i].normal);
+    }
   }
 }
 
