@@ -57,10 +57,14 @@ Exit run(const Tool& tool, const Arguments& a, OutputSet& outputs) {
   image.width = gbuffer.width;
   image.height = gbuffer.height;
   Cut cut;
-  if (!a.cut.empty()) cut = read_cut(a.cut);
+  std::vector<test::Box> boxes;
+  if (!a.cut.empty()) {
+    cut = read_cut(a.cut);
+    boxes = test::block_boxes(gbuffer);
+  }
   for (std::size_t i = 0; i < gbuffer.pixels.size(); ++i) {
     const test::Radiance sum =
-        a.cut.empty() ? pixel_sum(gbuffer, i, lights, a) : test::cut_sum(gbuffer, i, clusters, cut);
+        a.cut.empty() ? pixel_sum(gbuffer, i, lights, a) : test::cut_sum(gbuffer, i, clusters, cut, boxes[i]);
     image.diffuse.push_back(test::to_float(sum.diffuse));
     if (gbuffer.has_specular()) image.specular.push_back(test::to_float(sum.specular));
   }

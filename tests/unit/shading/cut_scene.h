@@ -7,6 +7,8 @@
 #include "cluster/cluster.h"
 #include "math/fvpl.h"
 #include "run.h"
+#include "stages/shading/cut_blocks.h"
+#include "stages/shading/cut_pixels.h"
 #include "stages/shading/methods.h"
 
 namespace vsgl::test {
@@ -60,10 +62,42 @@ inline double distant_specular(const SpecularReceiver& r, Vec3 u, double sharpne
   return density / (4 * r.cos_view * (1 + r.view_lambda + smith_lambda(r.ndf, alpha2, light.z)));
 }
 
-// What a cluster's light meets: the forms of the classes that docs/shading.md tells.
+// Bounds of the pixels that are shaded as one block.
+struct Box {
+  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+
+  void add(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  double distance2(Vec3 p) const {
+    const Vec3 nearest{std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y),
+                       std::clamp(p.z, low.z, high.z)};
+    return dot(p - nearest, p - nearest);
+  }
+};
+
+// Of each pixel the box about its block, by which docs/shading.md chooses the form of a cluster.
+inline std::vector<Box> block_boxes(const GBuffer& gbuffer) {
+  std::vector<Box> boxes(gbuffer.pixels.size());
+  const std::vector<std::uint8_t> kinds = pixel_kinds(gbuffer);
+  std::vector<std::uint8_t> seen(kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) seen[i] = kinds[i] != kBackground;
+  for (const CutReceivers& receivers : sort_into_blocks(gbuffer, kinds, seen, true))
+    for (const CutReceivers::Block& block : receivers.blocks) {
+      const auto pixels = std::span(receivers.pixels).subspan(block.first, block.count);
+      Box box;
+      for (const std::uint32_t pixel : pixels) box.add(to_double(gbuffer.pixels[pixel].position));
+      for (const std::uint32_t pixel : pixels) boxes[pixel] = box;
+    }
+  return boxes;
+}
+
+// What a cluster's light meets: the forms of the classes that docs/shading.md tells. `nearest`: square of the
+// block's distance in standard deviations.
 inline FvplReflection cut_reflection(const SpecularReceiver& r, const interop::Cluster& c,
-                                     const FvplView& view) {
-  if (c.normal_sharpness <= interop::CLUSTER_FLAT || !fvpl_is_point(view.sharpness, 0))
+                                     const FvplView& view, double nearest) {
+  if (c.normal_sharpness <= interop::CLUSTER_FLAT || !fvpl_is_point(nearest, 0))
     return fvpl_extended(r, view, static_cast<double>(c.inverse_variance));
   FvplReflection far = fvpl_point(r, view.u, view.inverse_d2);
   if (r.ndf != interop::NDF_NONE)
@@ -71,9 +105,9 @@ inline FvplReflection cut_reflection(const SpecularReceiver& r, const interop::C
   return far;
 }
 
-// Sum over the entries of the pixel's tile that it sees. Normals must not be bumped.
+// Sum over the entries of the pixel's tile that it sees; `box` is its block's. Normals must not be bumped.
 inline Radiance cut_sum(const GBuffer& gbuffer, std::size_t index,
-                        const std::vector<interop::Cluster>& clusters, const Cut& cut) {
+                        const std::vector<interop::Cluster>& clusters, const Cut& cut, const Box& box) {
   const OraclePixel p(gbuffer, index);
   Radiance sum;
   if (p.surface.id == interop::NO_INSTANCE) return sum;
@@ -88,10 +122,11 @@ inline Radiance cut_sum(const GBuffer& gbuffer, std::size_t index,
         (cut.mask_words[cut.masks[e] * interop::MASK_WORDS + bit / 32] >> bit % 32 & 1u) == 0)
       continue;
     const interop::Cluster& c = clusters[cut.nodes[e]];
-    const FvplView view =
-        fvpl_view(to_double(c.position) - p.position, static_cast<double>(c.inverse_variance));
+    const auto inverse_variance = static_cast<double>(c.inverse_variance);
+    const FvplView view = fvpl_view(to_double(c.position) - p.position, inverse_variance);
+    const double nearest = box.distance2(to_double(c.position)) * inverse_variance;
     const Vec3 emission = fvpl_emission(c, view.u, view.inverse_d2);
-    const FvplReflection reflection = cut_reflection(r, c, view);
+    const FvplReflection reflection = cut_reflection(r, c, view, nearest);
     sum.diffuse += to_double(p.surface.diffuse) * emission * reflection.diffuse;
     sum.specular += to_double(p.surface.specular) * emission * reflection.specular;
   }

@@ -51,9 +51,10 @@ GBuffer sparse_gbuffer(const BoxOptions& options) {
 
 void expect_sum(const GBuffer& gbuffer, const Lights& lights, const Cut& cut, double tolerance) {
   const std::vector<interop::Cluster> clusters = pack_clusters(lights);
+  const std::vector<test::Box> boxes = test::block_boxes(gbuffer);
   test::expect_near_oracle(
       test::shade_by(cut, gbuffer, lights, kExact),
-      [&](std::size_t i) { return test::cut_sum(gbuffer, i, clusters, cut); }, tolerance);
+      [&](std::size_t i) { return test::cut_sum(gbuffer, i, clusters, cut, boxes[i]); }, tolerance);
 }
 
 class Kinds : public testing::TestWithParam<std::pair<std::uint32_t, std::uint32_t>> {
