@@ -129,7 +129,8 @@ VSGL_LANE Filtered filtered_ggx(const Receiver& r, V3 h, float hh, float inverse
   return {1 / (kPi * std::sqrt(par * perp) * q * q), std::sqrt(r.sin_view * r.sin_view * par + c2)};
 }
 
-// Mean of BRDF times cosine under the normalised SG about u: specular_vmf_blend() of math/specular_lobe.h.
+// Mean of BRDF times cosine under the normalised SG about u: specular_vmf_blend() of math/specular_lobe.h,
+// cheaper than the lobe that shades, and good enough for decisions.
 template <Reflection R>
 VSGL_LANE float extended_reflection(const Receiver& r, V3 u, float cosine, const Lobe& lobe) {
   const V3 light = {dot(u, r.tangent), dot(u, r.bitangent), cosine};
@@ -157,6 +158,13 @@ VSGL_LANE float extended_reflection(const Receiver& r, V3 u, float cosine, const
   const float sharpness = clamp(1.25f - 12.5f * r.across * lobe.inverse, 0, 1);
   const float sharp = point_gaussian(r, u, cosine);
   return r.gaussian > 0 ? extended + sharpness * (sharp - extended) : ggx;
+}
+
+// fvpl_plane() of math/fvpl.h for a flat cluster, times `cosine`; `normals`: cosine between both normals.
+VSGL_LANE float on_plane(float cosine, float seen, float normals, float inverse_sharpness, float blurred) {
+  const float bend =
+      least(inverse_sharpness, 0.25f) * (cosine * (4 + blurred - 12 * seen * seen) - 4 * normals * seen);
+  return cosine * (1 + bend / most(cosine + std::abs(bend), 1e-20f));
 }
 
 // ---- Clusters
@@ -188,15 +196,19 @@ VSGL_LANE Light light_at(const Cluster& c, const Lobe& normals, float normal_spr
 
   float receive_diffuse, receive_specular = 0;
   if constexpr (F == Form::point) {
-    receive_diffuse = inverse_d2 * most(arriving, 0);
+    receive_diffuse = inverse_d2 * on_plane(most(arriving, 0), cosine, dot(v3(c.normal), r.normal),
+                                            inverse_d2 / c.inverse_variance, 0);
     if constexpr (R != Reflection::diffuse)
       receive_specular = inverse_d2 * point_reflection<R>(r, u, arriving);
   } else {
     const Lobe footprint = lobe_of(d2 * c.inverse_variance);
-    receive_diffuse = c.inverse_variance * cosine_integral_2pi(footprint, arriving);
+    const float mass = mass_2pi(footprint);
+    float mean = cosine_integral_2pi(footprint, arriving) / mass;
+    if constexpr (F == Form::flat)
+      mean = on_plane(mean, cosine, dot(v3(c.normal), r.normal), footprint.inverse, 1);
+    receive_diffuse = c.inverse_variance * mass * mean;
     if constexpr (R != Reflection::diffuse)
-      receive_specular =
-          c.inverse_variance * mass_2pi(footprint) * extended_reflection<R>(r, u, arriving, footprint);
+      receive_specular = c.inverse_variance * mass * extended_reflection<R>(r, u, arriving, footprint);
   }
 
   Light out;

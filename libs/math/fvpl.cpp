@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "math/interop_vec.h"
+#include "math/mixture_lobe.h"
 
 namespace vsgl {
 namespace {
@@ -75,14 +76,25 @@ Vec3 fvpl_emission(const Cluster& c, Vec3 u, double inverse_d2) {
   return emission + fvpl_specular(c, -u, inverse_d2, cosine, seen) * to_double(c.specular);
 }
 
-FvplReflection fvpl_point(const SpecularReceiver& r, Vec3 u, double inverse_d2) {
-  const double diffuse = std::max(dot(u, r.normal), 0.0) * std::numbers::inv_pi;
-  const Vec3 view{r.sin_view, 0, r.cos_view};
+double fvpl_plane(const Cluster& c, Vec3 u, Vec3 receiver_normal, double cosine, double inverse_sharpness,
+                  double blurred) {
+  if (!is_flat(wide(c.normal_sharpness))) return 1;
+  const Vec3 normal = to_double(c.normal);
+  const double seen = std::max(-dot(u, normal), 0.0);
+  const double bend = std::min(inverse_sharpness, 0.25) *
+                      (cosine * (4 + blurred - 12 * seen * seen) - 4 * dot(normal, receiver_normal) * seen);
+  return 1 + bend / std::max(cosine + std::abs(bend), 1e-20);
+}
+
+FvplReflection fvpl_point(const SpecularReceiver& r, const Cluster& c, const FvplView& view) {
+  const double cosine = std::max(dot(view.u, r.normal), 0.0);
+  const double inverse_sharpness = view.inverse_d2 / wide(c.inverse_variance);
+  const double diffuse =
+      cosine * fvpl_plane(c, view.u, r.normal, cosine, inverse_sharpness, 0) * std::numbers::inv_pi;
+  const Vec3 eye{r.sin_view, 0, r.cos_view}, light = specular_local(r, view.u);
   const double specular =
-      r.ndf == interop::NDF_NONE
-          ? 0
-          : specular_brdf_cos(r.ndf, std::sqrt(r.alpha2), {0, 0, 1}, view, specular_local(r, u));
-  return {inverse_d2 * diffuse, inverse_d2 * specular};
+      r.ndf == interop::NDF_NONE ? 0 : specular_brdf_cos(r.ndf, std::sqrt(r.alpha2), {0, 0, 1}, eye, light);
+  return {view.inverse_d2 * diffuse, view.inverse_d2 * specular};
 }
 
 double fvpl_fluence(double d2, double inverse_variance) {
@@ -90,10 +102,13 @@ double fvpl_fluence(double d2, double inverse_variance) {
   return sharpness > 0.5 ? -std::expm1(-2 * sharpness) / d2 : 2 * phi(-2 * sharpness) * inverse_variance;
 }
 
-FvplReflection fvpl_extended(const SpecularReceiver& r, const FvplView& view, double inverse_variance) {
-  const double fluence = fvpl_fluence(view.d2, inverse_variance);
-  const double diffuse = cosine_mean(dot(view.u, r.normal), view.sharpness) * std::numbers::inv_pi;
-  const double specular = r.ndf == interop::NDF_NONE ? 0 : specular_vmf_blend(r, view.u, view.sharpness);
+FvplReflection fvpl_extended(const SpecularReceiver& r, const Cluster& c, const FvplView& view) {
+  const double fluence = fvpl_fluence(view.d2, wide(c.inverse_variance));
+  const double cosine = cosine_mean(dot(view.u, r.normal), view.sharpness);
+  const double inverse_sharpness = 1 / std::max(view.sharpness, 1.0);
+  const double diffuse =
+      cosine * fvpl_plane(c, view.u, r.normal, cosine, inverse_sharpness, 1) * std::numbers::inv_pi;
+  const double specular = r.ndf == interop::NDF_NONE ? 0 : specular_vmf_mixture(r, view.u, view.sharpness);
   return {fluence * diffuse, fluence * specular};
 }
 

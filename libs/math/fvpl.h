@@ -39,12 +39,17 @@ Vec3 fvpl_emission_diffuse(const interop::Cluster& c, Vec3 u);
 Vec3 fvpl_emission_flat(const interop::Cluster& c, Vec3 u, double inverse_d2);
 Vec3 fvpl_emission(const interop::Cluster& c, Vec3 u, double inverse_d2);
 
+// What irradiance from the mean of a flat cluster is multiplied by since its texels lie in a plane, 0..2.
+// `cosine`: clamped, at the receiver; `blurred`: 1 if it is a mean over the footprint, or 0.
+double fvpl_plane(const interop::Cluster& c, Vec3 u, Vec3 receiver_normal, double cosine,
+                  double inverse_sharpness, double blurred);
+
 // Radiance per unit of radiant intensity and of each reflectance, 1/m^2.
 struct FvplReflection {
   double diffuse = 0, specular = 0;
 };
-FvplReflection fvpl_point(const SpecularReceiver& r, Vec3 u, double inverse_d2);
-FvplReflection fvpl_extended(const SpecularReceiver& r, const FvplView& view, double inverse_variance);
+FvplReflection fvpl_point(const SpecularReceiver& r, const interop::Cluster& c, const FvplView& view);
+FvplReflection fvpl_extended(const SpecularReceiver& r, const interop::Cluster& c, const FvplView& view);
 
 // Irradiance over a sphere per unit of radiant intensity, 1/m^2: 1 / d2 far away, at most 2 / sigma^2.
 double fvpl_fluence(double d2, double inverse_variance);

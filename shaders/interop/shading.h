@@ -79,7 +79,7 @@ VSGL_CONST uint VISIBILITY_MAPS = 1u;
 VSGL_CONST uint VISIBILITY_BITS = 2u;
 
 // How the receiver's specular lobe and the light's spherical Gaussian are multiplied and integrated.
-VSGL_CONST uint SPECULAR_LOBE_AUTO = 0u;        // the most accurate form: mixture, blend in a cut
+VSGL_CONST uint SPECULAR_LOBE_AUTO = 0u;        // the most accurate form: mixture
 VSGL_CONST uint SPECULAR_LOBE_SG = 1u;          // lobe and light as SGs
 VSGL_CONST uint SPECULAR_LOBE_ASG = 2u;         // lobe as an anisotropic SG
 VSGL_CONST uint SPECULAR_LOBE_ASG_ASG = 3u;     // lobe and light as anisotropic SGs

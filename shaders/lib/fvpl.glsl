@@ -5,7 +5,7 @@
 #define VSGL_LIB_FVPL_GLSL
 
 #include "interop/cluster.h"
-#include "lib/specular_lobe.glsl"
+#include "lib/mixture_lobe.glsl"
 
 // A cluster as a receiver sees it.
 struct FvplView {
@@ -82,13 +82,24 @@ vec3 fvpl_emission(uint ndf, Cluster c, vec3 u, float inverse_d2) {
   return emission + fvpl_specular(ndf, c, -u, inverse_d2, cosine, seen) * c.specular;
 }
 
-// Radiance per unit of radiant intensity and of each reflectance, 1/m^2: (diffuse, specular). From a point:
-vec2 fvpl_point(SpecularReceiver r, vec3 u, float inverse_d2) {
-  float diffuse = max(dot(u, r.normal), 0.0) / PI;
-  vec3 view = vec3(r.sin_view, 0.0, r.cos_view);
-  float specular =
-      r.ndf == NDF_NONE ? 0.0 : specular_brdf_cos(r.ndf, sqrt(r.alpha2), vec3(0.0, 0.0, 1.0), view, specular_local(r, u));
-  return inverse_d2 * vec2(diffuse, specular);
+// What irradiance from the cluster's mean is multiplied by since texels of parallel normals lie in a plane, over which both cosines and
+// 1 / d2 vary: exact to first order in 1 / sharpness, 0..2. `cosine`: clamped, at the receiver; `blurred`: 1 if it is a mean over the
+// footprint's directions, which is less by 1 / sharpness already, or 0.
+float fvpl_plane(Cluster c, vec3 u, vec3 receiver_normal, float cosine, float inverse_sharpness, float blurred) {
+  if (c.normal_sharpness <= CLUSTER_FLAT) return 1.0;
+  float seen = max(-dot(u, c.normal), 0.0);
+  float bend = cosine * (4.0 + blurred - 12.0 * seen * seen) - 4.0 * dot(c.normal, receiver_normal) * seen;
+  bend *= min(inverse_sharpness, 0.25);
+  return 1.0 + bend / max(cosine + abs(bend), 1e-20);
+}
+
+// Radiance per unit of radiant intensity and of each reflectance, 1/m^2: (diffuse, specular). From far away:
+vec2 fvpl_point(SpecularReceiver r, Cluster c, FvplView view) {
+  float cosine = max(dot(view.u, r.normal), 0.0);
+  float diffuse = cosine * fvpl_plane(c, view.u, r.normal, cosine, view.inverse_d2 / c.inverse_variance, 0.0) / PI;
+  vec3 eye = vec3(r.sin_view, 0.0, r.cos_view), light = specular_local(r, view.u);
+  float specular = r.ndf == NDF_NONE ? 0.0 : specular_brdf_cos(r.ndf, sqrt(r.alpha2), vec3(0.0, 0.0, 1.0), eye, light);
+  return view.inverse_d2 * vec2(diffuse, specular);
 }
 
 // Irradiance over a sphere per unit of radiant intensity, 1/m^2: 1 / d2 far away, at most 2 / sigma^2.
@@ -98,10 +109,11 @@ float fvpl_fluence(float d2, float inverse_variance) {
 }
 
 // From the whole footprint:
-vec2 fvpl_extended(SpecularReceiver r, FvplView view, float inverse_variance) {
-  float diffuse = cosine_mean(dot(view.u, r.normal), view.sharpness) / PI;
-  float specular = r.ndf == NDF_NONE ? 0.0 : specular_vmf_blend(r, view.u, view.sharpness);
-  return fvpl_fluence(view.d2, inverse_variance) * vec2(diffuse, specular);
+vec2 fvpl_extended(SpecularReceiver r, Cluster c, FvplView view) {
+  float cosine = cosine_mean(dot(view.u, r.normal), view.sharpness);
+  float diffuse = cosine * fvpl_plane(c, view.u, r.normal, cosine, 1.0 / max(view.sharpness, 1.0), 1.0) / PI;
+  float specular = r.ndf == NDF_NONE ? 0.0 : specular_vmf_mixture(r, view.u, view.sharpness);
+  return fvpl_fluence(view.d2, c.inverse_variance) * vec2(diffuse, specular);
 }
 
 #endif

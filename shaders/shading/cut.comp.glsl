@@ -7,9 +7,8 @@
 // each class of clusters, since lanes that disagree about a branch would pay for both sides.
 
 #include "interop/cut_shading.h"
-#include "kernels/fvpl.glsl"
 #include "shading/distant.glsl"
-#include "shading/receive.glsl"
+#include "shading/footprint.glsl"
 
 layout(local_size_x_id = CUT_LANES_ID) in;
 
@@ -90,15 +89,21 @@ void add_plain(Receiver r, Cluster c, float seen, inout Sums sums) {
   float d2 = dot(v, v);
   if (RECEIVER == NDF_NONE) {
     float above = BUMPED == 0 || dot(r.geometric, v) > 0.0 ? seen : 0.0;
-    float cosines = max(-dot(v, c.normal), 0.0) * max(dot(v, r.normal), 0.0);
-    sums.diffuse += (above * INVERSE_PI * cosines / (d2 * d2)) * c.diffuse;
+    float inverse_d2 = 1.0 / d2;
+    float leaving = max(-dot(v, c.normal), 0.0), arriving = max(dot(v, r.normal), 0.0);
+    // fvpl_plane() times d
+    float bend = arriving * (4.0 - 12.0 * leaving * leaving * inverse_d2) - 4.0 * dot(c.normal, r.normal) * leaving;
+    bend *= inverse_d2 * (1.0 / c.inverse_variance);
+    float sum = arriving + abs(bend);
+    float cosines = leaving * arriving * ((sum + bend) / max(sum, 1e-20));
+    sums.diffuse += (above * INVERSE_PI * cosines * inverse_d2 * inverse_d2) * c.diffuse;
     return;
   }
   float inverse_d = inversesqrt(d2);
   float inverse_d2 = inverse_d * inverse_d;
   vec3 u = v * inverse_d;
   float inverse_sharpness = inverse_d2 / c.inverse_variance;
-  add(sums, (seen * inverse_d2) * fvpl_emission_diffuse(c, u), distant_reflection(r, u, inverse_sharpness));
+  add(sums, (seen * inverse_d2) * fvpl_emission_diffuse(c, u), distant_reflection(r, c, u, inverse_sharpness));
 }
 
 // The same with specular emission.
@@ -108,7 +113,7 @@ void add_glossy(Receiver r, Cluster c, float seen, inout Sums sums) {
   float inverse_d2 = inverse_d * inverse_d;
   vec3 u = v * inverse_d;
   float inverse_sharpness = inverse_d2 / c.inverse_variance;
-  add(sums, (seen * inverse_d2) * fast_fvpl_emission_flat(c.ndf, c, u, inverse_d2), distant_reflection(r, u, inverse_sharpness));
+  add(sums, (seen * inverse_d2) * fast_fvpl_emission_flat(c.ndf, c, u, inverse_d2), distant_reflection(r, c, u, inverse_sharpness));
 }
 
 float above_horizon(Receiver r, Cluster c, vec3 v) {
@@ -126,6 +131,7 @@ void add_middle(Receiver r, Cluster c, float seen, inout Sums sums) {
   float inverse_d2 = inverse_d * inverse_d;
   vec3 u = v * inverse_d;
   float cosine = narrow_cosine(dot(u, r.normal), inverse_d * inversesqrt(c.inverse_variance));
+  cosine *= fvpl_plane(c, u, r.normal, cosine, inverse_d2 * (1.0 / c.inverse_variance), 1.0);
   sums.diffuse += (seen * above_horizon(r, c, v) * INVERSE_PI * inverse_d2 * cosine) * emission_of(c, u, inverse_d2);
 }
 
@@ -133,8 +139,7 @@ void add_middle(Receiver r, Cluster c, float seen, inout Sums sums) {
 void add_near(Receiver r, Cluster c, float seen, inout Sums sums) {
   vec3 v = c.position - r.position;
   FvplView view = fvpl_view(v, c.inverse_variance);
-  vec2 received = receive(r, fvpl_incoming(view, c.inverse_variance));
-  add(sums, (seen * above_horizon(r, c, v)) * emission_of(c, view.u, view.inverse_d2), received);
+  add(sums, (seen * above_horizon(r, c, v)) * emission_of(c, view.u, view.inverse_d2), receive_footprint(r, c, view));
 }
 
 void main() {

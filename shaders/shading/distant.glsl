@@ -2,6 +2,7 @@
 #ifndef VSGL_SHADING_DISTANT_GLSL
 #define VSGL_SHADING_DISTANT_GLSL
 
+#include "lib/fvpl.glsl"
 #include "shading/exact.glsl"
 
 // Specular BRDF times cosine, 1/sr, with half vectors spread as the footprint's directions are, whose variance is 1 / sharpness per axis:
@@ -28,10 +29,11 @@ float distant_specular(Receiver r, vec3 light, float inverse_sharpness) {
   return c > 0.0 ? 0.5 * INVERSE_PI * density * c * (inverse * q) : 0.0;
 }
 
-// As exact_reflection().
-vec2 distant_reflection(Receiver r, vec3 u, float inverse_sharpness) {
+// As exact_reflection(), of a flat cluster.
+vec2 distant_reflection(Receiver r, Cluster c, vec3 u, float inverse_sharpness) {
   float above = BUMPED == 0 || dot(r.geometric, u) > 0.0 ? 1.0 : 0.0;
-  vec2 reflection = vec2(above * INVERSE_PI * max(dot(r.normal, u), 0.0), 0.0);
+  float cosine = max(dot(r.normal, u), 0.0);
+  vec2 reflection = vec2(above * INVERSE_PI * cosine * fvpl_plane(c, u, r.normal, cosine, inverse_sharpness, 0.0), 0.0);
   if (RECEIVER != NDF_NONE) reflection.y = above * distant_specular(r, specular_local(r.lobe, u), inverse_sharpness);
   return reflection;
 }

@@ -8,8 +8,7 @@
 #include "interop/cluster.h"
 #define SHADING_LIGHT Cluster
 #include "shading/common.glsl"
-#include "kernels/fvpl.glsl"
-#include "shading/receive.glsl"
+#include "shading/footprint.glsl"
 #include "shading/shadow.glsl"
 
 void add_light(Receiver r, Cluster light, inout Sums sums) {
@@ -19,7 +18,7 @@ void add_light(Receiver r, Cluster light, inout Sums sums) {
   if (BUMPED != 0) lit *= geometric_horizon(r, v, light.inverse_variance);
   uint ndf = EMISSION == NDF_ANY ? light.ndf : EMISSION;
   vec3 emission = lit * fast_fvpl_emission(ndf, light, view.u, view.inverse_d2);
-  vec2 reflection = receive(r, fvpl_incoming(view, light.inverse_variance));
+  vec2 reflection = receive_footprint(r, light, view);
   sums.diffuse += reflection.x * emission;
   if (RECEIVER != NDF_NONE) sums.specular += reflection.y * emission;
 }

@@ -6,7 +6,7 @@
 #include "lib/reflected_lobe.glsl"
 #include "shading/receiver.glsl"
 
-layout(constant_id = SHADING_LOBE_ID) const uint LOBE = SPECULAR_LOBE_BLEND;  // of a cut, which chooses none
+layout(constant_id = SHADING_LOBE_ID) const uint LOBE = SPECULAR_LOBE_MIXTURE;
 
 // The specular lobe's answer to the normalised SG, 1/sr.
 float specular_answer(Receiver r, Incoming incoming) {

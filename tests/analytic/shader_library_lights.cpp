@@ -224,6 +224,30 @@ SpecularReceiver take_receiver(Arguments& a) {
   return specular_receiver(ndf, alpha, normal, a.take3());
 }
 
+// Where and how a cluster lies, as the reflection of its footprint asks.
+std::vector<Row> fvpl_planes() {
+  return combinations(
+      {numbers({1e-4, 1, 1e4}), {direction({0, 0, -1}), direction({0.6, 0.3, 1})}, numbers({150, 1e6})});
+}
+interop::Cluster take_plane(Arguments& a) {
+  interop::Cluster c{};
+  c.inverse_variance = a.take_float();
+  c.normal = to_float(a.take3());
+  c.normal_sharpness = a.take_float();
+  return c;
+}
+
+auto reflection(FvplReflection (*function)(const SpecularReceiver&, const interop::Cluster&,
+                                           const FvplView&)) {
+  return [function](Arguments& a) {
+    const SpecularReceiver r = take_receiver(a);
+    const Vec3 v = a.take3();
+    const interop::Cluster c = take_plane(a);
+    const FvplReflection f = function(r, c, fvpl_view(v, static_cast<double>(c.inverse_variance)));
+    return Values() << f.diffuse << f.specular;
+  };
+}
+
 auto emission(Vec3 (*function)(const interop::Cluster&, Vec3, double)) {
   return [function](Arguments& a) {
     const interop::Cluster c = take_cluster(a);
@@ -243,6 +267,7 @@ LibraryFile fvpl_file() {
                     numbers({0.05, 0.5}),
                     {direction({0, 0.1, 1})},
                     {direction({0.6, 0, 0.8})}});
+  const std::vector<Row> planes = fvpl_planes();
   const Tolerance tolerance{2e-3, 1e-5};
   return {
       "fvpl",
@@ -288,14 +313,7 @@ LibraryFile fvpl_file() {
        {"fvpl_emission_flat", combinations({clusters, towards}), emission(fvpl_emission_flat), tolerance,
         wild},
        {"fvpl_emission", combinations({clusters, towards}), emission(fvpl_emission), tolerance, wild},
-       {"fvpl_point", combinations({receivers, directions(), numbers({1e-6, 1, 1e4})}),
-        [](Arguments& a) {
-          const SpecularReceiver r = take_receiver(a);
-          const Vec3 u = a.take3();
-          const FvplReflection f = fvpl_point(r, u, a.take());
-          return Values() << f.diffuse << f.specular;
-        },
-        tolerance},
+       {"fvpl_point", combinations({receivers, offsets(), planes}), reflection(fvpl_point), tolerance},
        {"fvpl_fluence",
         combinations({numbers({0, 1e-12, 1e-3, 1, 1e6}), numbers({0, 1e-4, 1, 1e4, 1e12})}),
         [](Arguments& a) {
@@ -303,16 +321,24 @@ LibraryFile fvpl_file() {
           return fvpl_fluence(d2, a.take());
         },
         {2e-6, 0}},
-       {"fvpl_extended", combinations({receivers, offsets(), numbers({1e-4, 1, 1e4})}),
+       {"fvpl_extended", combinations({receivers, offsets(), planes}), reflection(fvpl_extended), tolerance,
+        combinations({receivers,
+                      {{0, 0, 0}, {1e-13f, 0, 0}, {1e3f, 0, 2}},
+                      combinations({numbers({0, 1e-9, 1e18}), {direction({0, 0, -1})}, numbers({0, 1e6})})})},
+       {"fvpl_plane",
+        combinations({planes,
+                      directions(),
+                      {direction({0, 0.1, 1})},
+                      numbers({0, 1e-3, 0.5, 1}),
+                      numbers({0, 1e-3, 0.1, 10}),
+                      numbers({0, 1})}),
         [](Arguments& a) {
-          const SpecularReceiver r = take_receiver(a);
-          const Vec3 v = a.take3();
-          const double inverse_variance = a.take();
-          const FvplReflection f = fvpl_extended(r, fvpl_view(v, inverse_variance), inverse_variance);
-          return Values() << f.diffuse << f.specular;
+          const interop::Cluster c = take_plane(a);
+          const Vec3 u = a.take3(), normal = a.take3();
+          const double cosine = a.take(), inverse_sharpness = a.take();
+          return fvpl_plane(c, u, normal, cosine, inverse_sharpness, a.take());
         },
-        tolerance,
-        combinations({receivers, {{0, 0, 0}, {1e-13f, 0, 0}, {1e3f, 0, 2}}, numbers({0, 1e-9, 1e18})})},
+        {0, 1e-4}},
        {"ggx_spread_d",
         combinations({numbers({1e-6, 0.04, 1}), numbers({0, 1e-3, 0.1, 1}), numbers({0, 1e-6, 0.3, 1}),
                       numbers({0, 0.7, 1})}),

@@ -7,7 +7,7 @@ namespace vsgl {
 
 const std::vector<SpecularLobe>& specular_lobes() {
   static const std::vector<SpecularLobe> lobes = {
-      {"auto", "the most accurate form: mixture, and blend in a cut", interop::SPECULAR_LOBE_AUTO},
+      {"auto", "the most accurate form: mixture", interop::SPECULAR_LOBE_AUTO},
       {"mixture", "peak of the product, normal distribution as a mixture of Gaussians",
        interop::SPECULAR_LOBE_MIXTURE},
       {"blend", "normal distribution filtered by the light, blended into the BRDF",

@@ -38,10 +38,27 @@ void put_specular(Cluster c) {
   put(fvpl_specular(c.ndf, c, w, inverse_d2, cosine, take()));
 }
 
-void put_extended(SpecularReceiver r) {
+Cluster take_plane() {
+  Cluster c;
+  c.inverse_variance = take();
+  c.normal = take3();
+  c.normal_sharpness = take();
+  return c;
+}
+
+void put_reflection(SpecularReceiver r, bool extended) {
   vec3 v = take3();
-  float inverse_variance = take();
-  put(fvpl_extended(r, fvpl_view(v, inverse_variance), inverse_variance));
+  Cluster c = take_plane();
+  FvplView view = fvpl_view(v, c.inverse_variance);
+  put(extended ? fvpl_extended(r, c, view) : fvpl_point(r, c, view));
+}
+
+void put_plane(Cluster c) {
+  vec3 u = take3();
+  vec3 normal = take3();
+  float cosine = take();
+  float inverse_sharpness = take();
+  put(fvpl_plane(c, u, normal, cosine, inverse_sharpness, take()));
 }
 
 void call() {
@@ -53,9 +70,10 @@ void call() {
     case 4u: put(fvpl_emission_diffuse(take_cluster(), take3())); break;
     case 5u: { Cluster c = take_cluster(); put(fvpl_emission_flat(c.ndf, c, take3(), take())); break; }
     case 6u: { Cluster c = take_cluster(); put(fvpl_emission(c.ndf, c, take3(), take())); break; }
-    case 7u: put(fvpl_point(take_receiver(), take3(), take())); break;
+    case 7u: put_reflection(take_receiver(), false); break;
     case 8u: put(fvpl_fluence(take(), take())); break;
-    case 9u: put_extended(take_receiver()); break;
-    case 10u: put(ggx_spread_d(take(), take(), take(), take())); break;
+    case 9u: put_reflection(take_receiver(), true); break;
+    case 10u: put_plane(take_plane()); break;
+    case 11u: put(ggx_spread_d(take(), take(), take(), take())); break;
   }
 }

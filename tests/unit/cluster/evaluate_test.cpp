@@ -99,9 +99,11 @@ std::array<double, kTileSamples> expected(const Cluster& c, const GBuffer& gbuff
   std::array<double, kTileSamples> out;
   for (std::size_t i = 0; i < kTileSamples; ++i) {
     const Sample s = sample(c, gbuffer, i);
-    const FvplReflection reflection =
-        point ? fvpl_point(s.receiver, s.view.u, s.view.inverse_d2)
-              : fvpl_extended(s.receiver, s.view, static_cast<double>(c.inverse_variance));
+    FvplReflection reflection =
+        point ? fvpl_point(s.receiver, c, s.view) : fvpl_extended(s.receiver, c, s.view);
+    if (!point && s.surface.ndf != interop::NDF_NONE)  // the cheaper lobe serves for decisions
+      reflection.specular = fvpl_fluence(s.view.d2, static_cast<double>(c.inverse_variance)) *
+                            specular_vmf_blend(s.receiver, s.view.u, s.view.sharpness);
     const Vec3 reflectance = reflection.diffuse * to_double(s.surface.diffuse) +
                              reflection.specular * to_double(s.surface.specular);
     out[i] = luminance(fvpl_emission(c, s.view.u, s.view.inverse_d2) * reflectance);

@@ -98,8 +98,8 @@ inline std::vector<Box> block_boxes(const GBuffer& gbuffer) {
 inline FvplReflection cut_reflection(const SpecularReceiver& r, const interop::Cluster& c,
                                      const FvplView& view, double nearest) {
   if (c.normal_sharpness <= interop::CLUSTER_FLAT || !fvpl_is_point(nearest, 0))
-    return fvpl_extended(r, view, static_cast<double>(c.inverse_variance));
-  FvplReflection far = fvpl_point(r, view.u, view.inverse_d2);
+    return fvpl_extended(r, c, view);
+  FvplReflection far = fvpl_point(r, c, view);
   if (r.ndf != interop::NDF_NONE)
     far.specular = view.inverse_d2 * distant_specular(r, view.u, view.sharpness);
   return far;

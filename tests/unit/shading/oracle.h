@@ -99,7 +99,7 @@ inline Radiance fvpl_sum(const GBuffer& gbuffer, std::size_t index, const Lights
     const double inverse_variance = cluster.inverse_variance;
     const FvplView view = fvpl_view(to_double(cluster.position) - p.position, inverse_variance);
     const Vec3 emission = fvpl_emission(cluster, view.u, view.inverse_d2);
-    const FvplReflection reflection = fvpl_extended(r, view, inverse_variance);
+    const FvplReflection reflection = fvpl_extended(r, cluster, view);
     sum.diffuse += to_double(p.surface.diffuse) * emission * reflection.diffuse;
     if (!p.is_specular()) continue;
     const double answer = specular_form(options.lobe)(r, view.u, view.sharpness);
