@@ -5,6 +5,7 @@ fails. docs/stability.md explains it."""
 
 import argparse
 import concurrent.futures
+import math
 import os
 import pathlib
 import shutil
@@ -32,7 +33,8 @@ def judge(workshop, case):
              "left_out": 0, "pixels": 0, "failure": None}
     try:
         measured = CHECKS[case["check"]](workshop, case)
-        found |= {"error": measured.error, "left_out": measured.left_out, "pixels": measured.pixels}
+        found |= {"error": measured.error if math.isfinite(measured.error) else None,
+                  "left_out": measured.left_out, "pixels": measured.pixels}
         if not measured.error <= case["bound"]:
             found["failure"] = f"error {measured.error:.3g} exceeds the bound {case['bound']:.3g}"
     except (CheckFailed, ToolFailed, ToolBroke, exr.BadImage) as error:
@@ -94,7 +96,8 @@ def run(suite, options):
         groups.append({"name": name, **about, "rows": rows, "cases": results})
         if not options.keep:
             shutil.rmtree(options.output / "work" / name, ignore_errors=True)
-    return {"quick": options.quick, "wall_s": round(time.monotonic() - begin, 1), "groups": groups}
+    return {"$schema": "vsgltools/stress-results/1", "quick": options.quick, "wall_s": round(time.monotonic() - begin, 1),
+            "groups": groups}
 
 
 def main():
