@@ -10,7 +10,7 @@ namespace {
 
 // Length of a unit normal among the features, in root mean square distances of the lit positions from their
 // mean; found by measurement (docs/sampling.md).
-constexpr double kNormalScale = 2;
+constexpr double kNormalScale = 1;
 // Steps in which features are counted, in that distance: wide enough that what rounding leaves of equal
 // coordinates is equal, fine enough for RSMs of 4096 texels a side.
 constexpr double kStep = 1.0 / 32768;
