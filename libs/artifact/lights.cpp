@@ -34,6 +34,7 @@ constexpr Field kFields[] = {
     {"texel", "I", offsetof(Light, texel)},
     {"layer", "I", offsetof(Light, layer)},
     {"lobe_variance", "V", offsetof(Light, lobe_variance), Range::non_negative, true},
+    {"shading_deficit", "V", offsetof(Light, shading_deficit), Range::non_negative, true},
     {"children", "I", offsetof(Light, children)},
 };
 

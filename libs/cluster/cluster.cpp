@@ -23,6 +23,11 @@ double normal_sharpness(const Light& light) {
   return lobe_sharpness(std::sqrt(std::max(1 - deficit, 0.0)), deficit);
 }
 
+// Part of the way from the mean normal to the half vector that the normals have turned which reflect there:
+// of Gaussian lobes all of the normals' share of the variance; of GGX, whose tails reach far from each
+// normal, as much of it as fits clusters of a rough normal map best (docs/mathematics.md).
+constexpr double kFacetTurn = 0.6;
+
 // A light may hold specular power although its representative point has no specular lobe: it gets the
 // broadest.
 void set_specular(Cluster& c, const Light& light) {
@@ -33,10 +38,11 @@ void set_specular(Cluster& c, const Light& light) {
   const double peak = ndf == interop::NDF_GGX ? std::numbers::inv_pi : 1;
   c.incident_masking = static_cast<float>(1 + smith_lambda(ndf, alpha2, cosine));
   c.shading_normal = light.shading_normal;
-  c.incident_scale = static_cast<float>(peak / (4 * cosine));
+  const double deficit = static_cast<double>(light.shading_deficit);
+  c.facet_turn = static_cast<float>(kFacetTurn * deficit / (alpha2 + deficit));
   c.incident = light.incident;
   c.alpha2 = static_cast<float>(std::min(alpha2 + static_cast<double>(light.lobe_variance), 1.0));
-  c.specular = light.power_specular;
+  c.specular = to_float(peak / (4 * cosine) * to_double(light.power_specular));
   c.masking_alpha2 = static_cast<float>(alpha2);
   c.ndf = ndf;
 }

@@ -51,12 +51,14 @@ VSGL_LANE float gaussian_density(float phong, float alpha2, float sin2, float co
 enum class Emission { none, ggx, gaussian };
 
 // fvpl_specular() of math/fvpl.h: the BRDF of the cluster's specular texels towards -u, their lobe widened by
-// the spread of the cluster and its angle from here, times the cosine `seen`. `cosine`: to their normals.
+// the spread of the cluster and its angle from here, times the cosine `seen`.
 template <Emission E>
-VSGL_LANE float specular_emission(const Cluster& c, V3 u, float lobe_variance, float cosine, float seen) {
+VSGL_LANE float specular_emission(const Cluster& c, V3 u, float lobe_variance, float seen) {
   const V3 n = v3(c.shading_normal), h = v3(c.incident) - u;
-  const float z = most(cosine, 1e-4f), alpha2 = least(c.alpha2 + lobe_variance, 1);
+  const float alpha2 = least(c.alpha2 + lobe_variance, 1);
   const float hh = most(dot(h, h), 1e-12f), hn = dot(h, n);
+  const float cosine = (1 - c.facet_turn) * most(-dot(u, n), 0) + c.facet_turn * 0.5f * std::sqrt(hh);
+  const float z = most(cosine, 1e-4f);
   const V3 t = h - hn * n;
   float scaled;
   if constexpr (E == Emission::ggx) {
@@ -70,7 +72,7 @@ VSGL_LANE float specular_emission(const Cluster& c, V3 u, float lobe_variance, f
     const float density = gaussian_density(phong, alpha2, dot(t, t) / hh, hn * hn / hh);
     scaled = density / (z * (c.incident_masking + beckmann_lambda(c.masking_alpha2, z)));
   }
-  return cosine > 0 ? c.incident_scale * seen * scaled : 0.0f;
+  return cosine > 0 ? seen * scaled : 0.0f;
 }
 
 // ---- Reflection
@@ -190,9 +192,7 @@ VSGL_LANE Light light_at(const Cluster& c, const Lobe& normals, float normal_spr
   const float emitted_diffuse = cosine, shade = dot(r.diffuse, v3(c.diffuse));
   float emitted_specular = 0;
   if constexpr (E != Emission::none)
-    emitted_specular =
-        specular_emission<E>(c, u, 0.5f * inverse_d2 / c.inverse_variance,
-                             F == Form::curved ? cosine : -dot(u, v3(c.shading_normal)), cosine);
+    emitted_specular = specular_emission<E>(c, u, 0.5f * inverse_d2 / c.inverse_variance, cosine);
 
   float receive_diffuse, receive_specular = 0;
   if constexpr (F == Form::point) {

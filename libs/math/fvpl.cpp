@@ -42,19 +42,21 @@ double ggx_spread_d(double alpha2, double spread, double sin2, double cos2) {
   return (alpha2 + 2 * b * (b - alpha2) * cos2 / q) / (std::numbers::pi * q * q);
 }
 
-double fvpl_specular(const Cluster& c, Vec3 w, double inverse_d2, double cosine, double seen) {
-  if (cosine <= 0) return 0;
+double fvpl_specular(const Cluster& c, Vec3 w, double inverse_d2, double seen) {
   const Vec3 n = to_double(c.shading_normal), h = to_double(c.incident) + w;
   const double hn = dot(h, n), hh = std::max(dot(h, h), 1e-12);
+  const double turn = wide(c.facet_turn);
+  const double cosine = (1 - turn) * std::max(dot(w, n), 0.0) + turn * 0.5 * std::sqrt(hh);
+  if (cosine <= 0) return 0;
   const Vec3 t = h - hn * n;
   const double sin2 = dot(t, t) / hh, cos2 = hn * hn / hh, surface = wide(c.masking_alpha2);
   const double alpha2 = std::min(wide(c.alpha2) + inverse_d2 / (2 * wide(c.inverse_variance)), 1.0);
   const double density =
-      c.ndf == interop::NDF_GGX  // incident_scale holds 1 / pi
+      c.ndf == interop::NDF_GGX  // c.specular holds 1 / pi
           ? std::numbers::pi * ggx_spread_d(surface, std::max(alpha2 - surface, 0.0), sin2, cos2)
           : ndf_density(c.ndf, alpha2, sin2, cos2);
   const double masking = wide(c.incident_masking) + smith_lambda(c.ndf, wide(c.masking_alpha2), cosine);
-  return wide(c.incident_scale) * density * seen / (std::max(cosine, cos_min) * masking);
+  return density * seen / (std::max(cosine, cos_min) * masking);
 }
 
 Vec3 fvpl_emission_diffuse(const Cluster& c, Vec3 u) {
@@ -63,17 +65,14 @@ Vec3 fvpl_emission_diffuse(const Cluster& c, Vec3 u) {
 
 Vec3 fvpl_emission_flat(const Cluster& c, Vec3 u, double inverse_d2) {
   const double seen = std::max(-dot(u, to_double(c.normal)), 0.0);
-  const double cosine = -dot(u, to_double(c.shading_normal));
-  return seen * to_double(c.diffuse) + fvpl_specular(c, -u, inverse_d2, cosine, seen) * to_double(c.specular);
+  return seen * to_double(c.diffuse) + fvpl_specular(c, -u, inverse_d2, seen) * to_double(c.specular);
 }
 
 Vec3 fvpl_emission(const Cluster& c, Vec3 u, double inverse_d2) {
-  const double normal_sharpness = wide(c.normal_sharpness);
-  const double seen = fvpl_cosine(-dot(u, to_double(c.normal)), normal_sharpness);
+  const double seen = fvpl_cosine(-dot(u, to_double(c.normal)), wide(c.normal_sharpness));
   const Vec3 emission = seen * to_double(c.diffuse);
   if (c.ndf == interop::NDF_NONE) return emission;
-  const double cosine = is_flat(normal_sharpness) ? -dot(u, to_double(c.shading_normal)) : seen;
-  return emission + fvpl_specular(c, -u, inverse_d2, cosine, seen) * to_double(c.specular);
+  return emission + fvpl_specular(c, -u, inverse_d2, seen) * to_double(c.specular);
 }
 
 double fvpl_plane(const Cluster& c, Vec3 u, Vec3 receiver_normal, double cosine, double inverse_sharpness,

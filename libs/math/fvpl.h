@@ -29,9 +29,9 @@ double fvpl_cosine(double c, double normal_sharpness);
 // added by the cluster.
 double ggx_spread_d(double alpha2, double spread, double sin2, double cos2);
 
-// Specular BRDF of the widened lobe times the cosine `seen` from the light source to `w`, 1/sr; `cosine`: of
-// w to the specular texels' normals.
-double fvpl_specular(const interop::Cluster& c, Vec3 w, double inverse_d2, double cosine, double seen);
+// Specular BRDF of the widened lobe times the cosine `seen` from the light source to `w`, 1/sr, over the
+// constant that c.specular holds.
+double fvpl_specular(const interop::Cluster& c, Vec3 w, double inverse_d2, double seen);
 
 // Radiant intensity towards the receiver, W/sr: without specular emission and of parallel normals, of
 // parallel normals, and any.

@@ -18,10 +18,10 @@ struct Cluster {
   vec3 diffuse;          // power_diffuse / pi, W/sr
   float incident_masking;  // 1 + Smith's Lambda of the direction to the source
   vec3 shading_normal;     // mean, of the specular texels, unit
-  float incident_scale;    // 1 / (4 cosine to the source) of the shading normal; GGX: over pi, too
-  vec3 incident;           // mean direction to the source, unit
+  float facet_turn;  // how far towards the half vector the normals turn that reflect there, 0 (parallel) to 1
+  vec3 incident;     // mean direction to the source, unit
   float alpha2;   // of the widened lobe: alpha^2 + lobe_variance (distance to the receiver not yet counted)
-  vec3 specular;  // power_specular, W
+  vec3 specular;  // power_specular / (4 cosine to the source of the shading normal), W; GGX: over pi, too
   float masking_alpha2;  // alpha^2 of the surface itself
   uint ndf;              // NDF_* of the specular emission, NDF_NONE: none
   uint children;         // index of the first of four, 0: a leaf

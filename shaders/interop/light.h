@@ -17,24 +17,26 @@ struct Light {
   float diffuse_sharpness;  // of the normalised SG
   vec3 diffuse_axis;        // along emission, unit
   float specular_sharpness;
-  vec3 power_specular;   // W
-  float alpha;           // roughness of the representative specular lobe (Phong: sqrt(2/(n+2)))
-  vec3 specular_axis;    // along emission, unit
-  uint ndf;              // NDF_* of the representative specular lobe
-  vec3 normal;           // geometric, unit: the side from which light leaves
-  float normal_deficit;  // 1 - |mean normal|^2 over the cluster
-  vec3 shading_normal;   // of the representative point, unit
-  float level;           // mip level of the kernel, 0 = one texel
-  vec3 incident;         // unit, towards the light source, at the representative point
-  uint texel;            // row-major index of the sampled texel in its RSM layer
-  vec3 origin;           // representative point on a surface (the sampled texel), m, relative to the anchor
-  uint layer;            // which RSM layer (light, cube face)
-  float lobe_variance;   // of the half vectors of the cluster's specular lobes, beyond those of alpha: 1 -
-                        // |mean shading normal|^2 plus variance / (2 distance to the source^2); 0 for a
-                        // single point. Added to alpha^2
-  uint children;  // in a light tree: index of the first of four; 0: a leaf
+  vec3 power_specular;    // W
+  float alpha;            // roughness of the representative specular lobe (Phong: sqrt(2/(n+2)))
+  vec3 specular_axis;     // along emission, unit
+  uint ndf;               // NDF_* of the representative specular lobe
+  vec3 normal;            // geometric, unit: the side from which light leaves
+  float normal_deficit;   // 1 - |mean normal|^2 over the cluster
+  vec3 shading_normal;    // of the representative point, unit
+  float level;            // mip level of the kernel, 0 = one texel
+  vec3 incident;          // unit, towards the light source, at the representative point
+  uint texel;             // row-major index of the sampled texel in its RSM layer
+  vec3 origin;            // representative point on a surface (the sampled texel), m, relative to the anchor
+  uint layer;             // which RSM layer (light, cube face)
+  float lobe_variance;    // of the half vectors of the cluster's specular lobes, beyond those of alpha: 1 -
+                          // |mean shading normal|^2 plus variance / (2 distance to the source^2); 0 for a
+                          // single point. Added to alpha^2
+  uint children;          // in a light tree: index of the first of four; 0: a leaf
+  float shading_deficit;  // 1 - |mean shading normal|^2 over the cluster's specular texels, part of
+                          // lobe_variance
 };
-VSGL_CHECK_SIZE(Light, 152)
+VSGL_CHECK_SIZE(Light, 156)
 
 VSGL_INTEROP_END
 #endif

@@ -18,8 +18,8 @@ float fast_fvpl_cosine(float c, float normal_sharpness) {
 }
 
 // fvpl_specular(), w = -u. For GGX with 1 + Lambda = (c + s) / (2 c), s = ggx_slope_cosine: one division.
-float fast_fvpl_specular(uint ndf, Cluster c, vec3 u, float inverse_d2, float cosine, float seen) {
-  if (ndf != NDF_GGX) return fvpl_specular(ndf, c, -u, inverse_d2, cosine, seen);
+float fast_fvpl_specular(uint ndf, Cluster c, vec3 u, float inverse_d2, float seen) {
+  if (ndf != NDF_GGX) return fvpl_specular(ndf, c, -u, inverse_d2, seen);
   vec3 h = c.incident - u;
   float hh = max(dot(h, h), 1e-8);
   float hn = dot(h, c.shading_normal);
@@ -28,20 +28,19 @@ float fast_fvpl_specular(uint ndf, Cluster c, vec3 u, float inverse_d2, float co
   float spread = max(min(c.alpha2 + (0.5 / c.inverse_variance) * inverse_d2, 1.0) - alpha2, 0.0);
   float b = alpha2 + sqrt(2.0 * spread * (alpha2 + 2.0 * spread));
   float q = max(dot(t, t) + b * hn * hn, min(b, 1.0) * hh);
-  float z = max(cosine, 0.0);
+  float z = mix(max(-dot(u, c.shading_normal), 0.0), 0.5 * sqrt(hh), c.facet_turn);
   float masking = (2.0 * c.incident_masking - 1.0) * z + ggx_slope_cosine(alpha2, z);
   float inverse = 1.0 / (q * masking);
   float inverse_q = inverse * masking;
   float sharp = hh * inverse_q;
   float density = sharp * sharp * (alpha2 + 2.0 * b * (b - alpha2) * hn * hn * inverse_q);
-  return z > 0.0 ? 2.0 * c.incident_scale * seen * density * (inverse * q) : 0.0;
+  return z > 0.0 ? 2.0 * seen * density * (inverse * q) : 0.0;
 }
 
 // fvpl_emission_flat().
 vec3 fast_fvpl_emission_flat(uint ndf, Cluster c, vec3 u, float inverse_d2) {
   float seen = max(-dot(u, c.normal), 0.0);
-  float cosine = -dot(u, c.shading_normal);
-  return seen * c.diffuse + fast_fvpl_specular(ndf, c, u, inverse_d2, cosine, seen) * c.specular;
+  return seen * c.diffuse + fast_fvpl_specular(ndf, c, u, inverse_d2, seen) * c.specular;
 }
 
 // fvpl_emission().
@@ -49,8 +48,7 @@ vec3 fast_fvpl_emission(uint ndf, Cluster c, vec3 u, float inverse_d2) {
   float seen = fast_fvpl_cosine(-dot(u, c.normal), c.normal_sharpness);
   vec3 emission = seen * c.diffuse;
   if (ndf == NDF_NONE) return emission;
-  float cosine = c.normal_sharpness > CLUSTER_FLAT ? -dot(u, c.shading_normal) : seen;
-  return emission + fast_fvpl_specular(ndf, c, u, inverse_d2, cosine, seen) * c.specular;
+  return emission + fast_fvpl_specular(ndf, c, u, inverse_d2, seen) * c.specular;
 }
 
 // The footprint as light that arrives: fluence fvpl_fluence() = amplitude phi (1 + decay).

@@ -62,7 +62,7 @@ Light make_light(ClusterPart part) {
   light.alpha = 0.0;
   light.ndf = 0u;
   light.shading_normal = light.incident = light.origin = vec3(0.0);
-  light.lobe_variance = 0.0;
+  light.lobe_variance = light.shading_deficit = 0.0;
   light.children = 0u;
   return light;
 }

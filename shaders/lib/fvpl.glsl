@@ -44,20 +44,23 @@ float ggx_spread_d(float alpha2, float spread, float sin2, float cos2) {
 
 // Specular BRDF times the cosine `seen` from the light source to `w`, 1/sr: specular_brdf_cos() with what does not depend on `w`
 // hoisted and the lobe widened by the spread of the cluster's half vectors, sigma^2 / (2 d2) of which comes from the directions to the
-// receiver. `cosine`: of w to the specular texels' normals; the masking is that of the surface itself.
-float fvpl_specular(uint ndf, Cluster c, vec3 w, float inverse_d2, float cosine, float seen) {
+// receiver; over the constant that c.specular holds. Of normals that spread those reflect that have turned towards the half vector h, and
+// these see `w` at a cosine between that of the mean and that of h itself, |h| / 2. The masking is that of the surface itself.
+float fvpl_specular(uint ndf, Cluster c, vec3 w, float inverse_d2, float seen) {
   vec3 h = c.incident + w;
   float hn = dot(h, c.shading_normal);
   vec3 t = h - hn * c.shading_normal;
-  float inverse = 1.0 / max(dot(h, h), 1e-12);
+  float hh = max(dot(h, h), 1e-12);
+  float inverse = 1.0 / hh;
   float alpha2 = min(c.alpha2 + 0.5 * inverse_d2 / c.inverse_variance, 1.0);
   float sin2 = dot(t, t) * inverse;
   float cos2 = hn * hn * inverse;
-  float density = ndf == NDF_GGX  // incident_scale holds 1 / pi
+  float density = ndf == NDF_GGX  // c.specular holds 1 / pi
                       ? PI * ggx_spread_d(c.masking_alpha2, max(alpha2 - c.masking_alpha2, 0.0), sin2, cos2)
                       : ndf_density(ndf, alpha2, sin2, cos2);
+  float cosine = mix(max(dot(w, c.shading_normal), 0.0), 0.5 * sqrt(hh), c.facet_turn);
   float masking = c.incident_masking + smith_lambda(ndf, c.masking_alpha2, cosine);
-  return cosine > 0.0 ? c.incident_scale * density * seen / (max(cosine, COS_MIN) * masking) : 0.0;
+  return cosine > 0.0 ? density * seen / (max(cosine, COS_MIN) * masking) : 0.0;
 }
 
 // Radiant intensity towards the receiver, W/sr, of three classes of clusters.
@@ -69,17 +72,15 @@ vec3 fvpl_emission_diffuse(Cluster c, vec3 u) {
 // Of parallel normals. The surface is seen with its geometric normal; its specular lobe has a horizon of its own.
 vec3 fvpl_emission_flat(uint ndf, Cluster c, vec3 u, float inverse_d2) {
   float seen = max(-dot(u, c.normal), 0.0);
-  float cosine = -dot(u, c.shading_normal);
-  return seen * c.diffuse + fvpl_specular(ndf, c, -u, inverse_d2, cosine, seen) * c.specular;
+  return seen * c.diffuse + fvpl_specular(ndf, c, -u, inverse_d2, seen) * c.specular;
 }
 
-// Any. Where normals spread, their mean cosine stands for the specular texels', too.
+// Any.
 vec3 fvpl_emission(uint ndf, Cluster c, vec3 u, float inverse_d2) {
   float seen = fvpl_cosine(-dot(u, c.normal), c.normal_sharpness);
   vec3 emission = seen * c.diffuse;
   if (ndf == NDF_NONE) return emission;
-  float cosine = c.normal_sharpness > CLUSTER_FLAT ? -dot(u, c.shading_normal) : seen;
-  return emission + fvpl_specular(ndf, c, -u, inverse_d2, cosine, seen) * c.specular;
+  return emission + fvpl_specular(ndf, c, -u, inverse_d2, seen) * c.specular;
 }
 
 // What irradiance from the cluster's mean is multiplied by since texels of parallel normals lie in a plane, over which both cosines and

@@ -64,7 +64,7 @@ Cluster load_cluster(uint index) {
   vec4 incident = texelFetch(clusters, first + 4);
   vec4 specular = texelFetch(clusters, first + 5);
   c.shading_normal = shading_normal.xyz;
-  c.incident_scale = shading_normal.w;
+  c.facet_turn = shading_normal.w;
   c.incident = incident.xyz;
   c.alpha2 = incident.w;
   c.specular = specular.xyz;

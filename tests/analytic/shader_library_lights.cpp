@@ -176,7 +176,8 @@ Row concatenation(std::initializer_list<Row> parts) {
 }
 
 // Clusters in the order of the test shader: each density of normals and none, rough and smooth, of parallel
-// and of spread normals, straight and bumped, small and large, and one without any power.
+// and of spread normals, straight and bumped with normals that turn, small and large, and one without any
+// power.
 std::vector<Row> fvpl_clusters(std::initializer_list<double> alphas) {
   std::vector<Row> rows;
   const Row incident = direction({0.5, -0.1, 0.8}), diffuse{0.3f, 0.2f, 0}, specular{0.1f, 0, 2};
@@ -194,7 +195,7 @@ std::vector<Row> fvpl_clusters(std::initializer_list<double> alphas) {
                                           diffuse,
                                           {1.2f},
                                           direction(bump),
-                                          {0.11f},
+                                          {bump.x > 0 ? 0.4f : 0.0f},
                                           incident,
                                           {alpha2},
                                           specular,
@@ -210,7 +211,7 @@ interop::Cluster take_cluster(Arguments& a) {
   c.inverse_variance = a.take_float();
   c.normal = vector(), c.normal_sharpness = a.take_float();
   c.diffuse = vector(), c.incident_masking = a.take_float();
-  c.shading_normal = vector(), c.incident_scale = a.take_float();
+  c.shading_normal = vector(), c.facet_turn = a.take_float();
   c.incident = vector(), c.alpha2 = a.take_float();
   c.specular = vector(), c.masking_alpha2 = a.take_float();
   c.ndf = a.take_word();
@@ -294,13 +295,12 @@ LibraryFile fvpl_file() {
           return fvpl_cosine(c, a.take());
         },
         {0, 1e-5}},
-       {"fvpl_specular",
-        combinations({clusters, upper_directions(), numbers({1}), numbers({-0.1, 0, 0.7}), numbers({0.6})}),
+       {"fvpl_specular", combinations({clusters, directions(), numbers({1}), numbers({0.6})}),
         [](Arguments& a) {
           const interop::Cluster c = take_cluster(a);
           const Vec3 w = a.take3();
-          const double inverse_d2 = a.take(), cosine = a.take();
-          return fvpl_specular(c, w, inverse_d2, cosine, a.take());
+          const double inverse_d2 = a.take();
+          return fvpl_specular(c, w, inverse_d2, a.take());
         },
         tolerance},
        {"fvpl_emission_diffuse",

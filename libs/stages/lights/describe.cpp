@@ -106,6 +106,7 @@ ordered_json to_json(const interop::Light& light) {
           {"alpha", light.alpha},
           {"ndf", light.ndf},
           {"lobe_variance", light.lobe_variance},
+          {"shading_deficit", light.shading_deficit},
           {"level", light.level},
           {"texel", light.texel},
           {"layer", light.layer},

@@ -179,6 +179,7 @@ class Summary {
     // Over a footprint of variance v the direction to a source at distance d varies by v / d^2 per axis, half
     // vectors by a quarter of that; alpha^2 is twice their variance per axis.
     light.lobe_variance = static_cast<float>(s.shading_deficit + 0.25 * m.spread * s.inverse_square);
+    light.shading_deficit = static_cast<float>(s.shading_deficit);
   }
 
   void set_empty(std::uint32_t index, const Light& parent) {
@@ -187,7 +188,7 @@ class Summary {
     light.variance = static_cast<float>(variance_floor_);
     light.power_diffuse = light.power_specular = light.diffuse_axis = light.specular_axis = {};
     light.diffuse_sharpness = light.specular_sharpness = light.normal_deficit = light.level = 0;
-    light.lobe_variance = 0;
+    light.lobe_variance = light.shading_deficit = 0;
     light.alpha = 1;
     light.ndf = interop::NDF_NONE;
     light.children = 0;

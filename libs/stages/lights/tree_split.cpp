@@ -5,12 +5,15 @@
 #include <limits>
 #include <span>
 
+#include "math/interop_vec.h"
+
 namespace vsgl {
 namespace {
 
 // Length of a unit normal among the features, in root mean square distances of the lit positions from their
-// mean; found by measurement (docs/sampling.md).
+// mean, and how much of a specular surface's bumps it holds; found by measurement (docs/sampling.md).
 constexpr double kNormalScale = 1;
+constexpr double kBumps = 0.3;
 // Steps in which features are counted, in that distance: wide enough that what rounding leaves of equal
 // coordinates is equal, fine enough for RSMs of 4096 texels a side.
 constexpr double kStep = 1.0 / 32768;
@@ -253,6 +256,13 @@ void count_features(std::vector<LitTexel>& texels) {
   }
 }
 
+// Between the geometric normal, which tells surfaces apart, and under a specular lobe that of shading.
+interop::vec3 split_normal(const interop::Moments& moments, const interop::Surface& surface) {
+  if (surface.ndf == interop::NDF_NONE) return moments.normal_mean;
+  const Vec3 geometric = to_double(moments.normal_mean);
+  return to_float(geometric + kBumps * (to_double(surface.shading_normal) - geometric));
+}
+
 }  // namespace
 
 std::vector<LitTexel> lit_texels(const Rsm& rsm) {
@@ -263,9 +273,7 @@ std::vector<LitTexel> lit_texels(const Rsm& rsm) {
       const interop::Moments& moments = rsm.layers[layer].pyramid[texel];
       if (!(moments.weight > 0)) continue;
       const interop::Surface& surface = rsm.layers[layer].surface[texel];
-      const interop::vec3 &y = moments.position, &n = surface.ndf == interop::NDF_NONE
-                                                          ? moments.normal_mean
-                                                          : surface.shading_normal;
+      const interop::vec3 &y = moments.position, n = split_normal(moments, surface);
       lit.push_back({.feature = {y.x, y.y, y.z, n.x, n.y, n.z}, .index = layer * texels + texel});
     }
   if (!lit.empty()) count_features(lit);

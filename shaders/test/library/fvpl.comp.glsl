@@ -13,7 +13,7 @@ Cluster take_cluster() {
   c.diffuse = take3();
   c.incident_masking = take();
   c.shading_normal = take3();
-  c.incident_scale = take();
+  c.facet_turn = take();
   c.incident = take3();
   c.alpha2 = take();
   c.specular = take3();
@@ -34,8 +34,7 @@ void put(FvplView v) { put(v.u); put(v.d2); put(v.inverse_d2); put(v.sharpness);
 void put_specular(Cluster c) {
   vec3 w = take3();
   float inverse_d2 = take();
-  float cosine = take();
-  put(fvpl_specular(c.ndf, c, w, inverse_d2, cosine, take()));
+  put(fvpl_specular(c.ndf, c, w, inverse_d2, take()));
 }
 
 Cluster take_plane() {

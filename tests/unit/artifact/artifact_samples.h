@@ -136,6 +136,7 @@ inline Lights sample_lights(int count, bool specular) {
       l.alpha = c.next() + 0.001f;
       l.ndf = interop::NDF_PHONG;
       l.lobe_variance = c.next();
+      l.shading_deficit = 0.5f * l.lobe_variance;
     }
     out.lights.push_back(l);
   }

@@ -41,6 +41,7 @@ Lights random_light(std::uint32_t ndf, double size, double deficit) {
   light.ndf = ndf;
   light.alpha = static_cast<float>(uniform(0.05, 0.7));
   light.lobe_variance = static_cast<float>(uniform(0, 0.05));
+  light.shading_deficit = 0.5f * light.lobe_variance;
   if (ndf != interop::NDF_NONE) light.power_specular = to_float(Vec3{0.3, 0.6, 0.9});
   Lights lights;
   lights.lights = {light};

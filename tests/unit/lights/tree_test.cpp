@@ -236,13 +236,15 @@ void expect_node(const Rsm& rsm, const Light& l, const std::vector<TexelId>& ids
     EXPECT_EQ(l.ndf, interop::NDF_NONE);
     EXPECT_EQ(l.alpha, 1);
     EXPECT_EQ(l.lobe_variance, 0);
+    EXPECT_EQ(l.shading_deficit, 0);
     return;
   }
   expect_lobe(l.specular_axis, l.specular_sharpness, e.specular, "specular lobe");
   EXPECT_NEAR(l.alpha, std::sqrt(e.alpha2), 1e-6);
   EXPECT_EQ(l.ndf, std::max_element(e.of_ndf.begin(), e.of_ndf.end()) - e.of_ndf.begin());
-  EXPECT_NEAR(l.lobe_variance,
-              1 - dot(e.shading_normal, e.shading_normal) + 0.25 * e.spread * e.inverse_square, 1e-6);
+  const double deficit = 1 - dot(e.shading_normal, e.shading_normal);
+  EXPECT_NEAR(l.shading_deficit, deficit, 1e-6);
+  EXPECT_NEAR(l.lobe_variance, deficit + 0.25 * e.spread * e.inverse_square, 1e-6);
 }
 
 TEST(Tree, NodesHaveTheStatisticsOfTheirTexels) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "math/interop_vec.h"
 #include "quadrature.h"
@@ -20,7 +22,7 @@ constexpr Vec3 kUp{0, 0, 1};
 
 // At the origin, facing +z, of one watt of each kind of power.
 Cluster cluster(double variance, double normal_sharpness, std::uint32_t ndf, double alpha,
-                Vec3 incident = kUp, double lobe_variance = 0) {
+                Vec3 incident = kUp, double lobe_variance = 0, double facet_turn = 0) {
   Cluster c{};
   c.inverse_variance = static_cast<float>(1 / variance);
   c.normal = to_float(kUp);
@@ -32,10 +34,10 @@ Cluster cluster(double variance, double normal_sharpness, std::uint32_t ndf, dou
   c.shading_normal = to_float(kUp);
   c.incident = to_float(incident);
   c.incident_masking = static_cast<float>(1 + smith_lambda(ndf, alpha2, cosine));
-  c.incident_scale = static_cast<float>((ndf == NDF_GGX ? 1 / pi : 1) / (4 * cosine));
+  c.facet_turn = static_cast<float>(facet_turn);
   c.alpha2 = static_cast<float>(alpha2 + lobe_variance);
   c.masking_alpha2 = static_cast<float>(alpha2);
-  c.specular.y = 1;
+  c.specular.y = static_cast<float>((ndf == NDF_GGX ? 1 / pi : 1) / (4 * cosine));
   return c;
 }
 
@@ -113,6 +115,64 @@ TEST(Fvpl, EmitsNoMoreThanItsPower) {
         EXPECT_LT(power(c).y, 1.08 * excess) << ndf << " " << tilt << " " << lobe_variance;
         EXPECT_GT(power(c).y, 0.4) << ndf << " " << tilt << " " << lobe_variance;
       }
+}
+
+// One watt of GGX texels of a plane that faces up, with a shading normal of their own.
+Cluster bumped(Vec3 shading_normal, Vec3 incident, double alpha, double lobe_variance, double facet_turn) {
+  Cluster c = cluster(1e-12, 1e9, NDF_GGX, alpha, incident, lobe_variance, facet_turn);
+  const double cosine = dot(shading_normal, incident);
+  c.shading_normal = to_float(shading_normal);
+  c.incident_masking = static_cast<float>(1 + smith_lambda(NDF_GGX, alpha * alpha, cosine));
+  c.specular.y = static_cast<float>(1 / (4 * pi * cosine));
+  return c;
+}
+
+// A patch of normals with Gaussian slopes as one cluster, against the sum over its texels.
+struct PatchError {
+  double mean, l1;  // over the upper hemisphere, relative
+};
+PatchError rough_patch(double alpha, double slope_deviation, double facet_turn) {
+  constexpr int kNormals = 400, kRows = 20, kColumns = 40;
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> slope(0, slope_deviation);
+  const Vec3 incident = normalise(Vec3{0.5, 0, 1});
+  std::vector<Cluster> texels;
+  Vec3 sum;
+  while (texels.size() < kNormals) {
+    const Vec3 n = normalise(Vec3{slope(generator), slope(generator), 1});
+    if (dot(n, incident) < 0.1) continue;
+    texels.push_back(bumped(n, incident, alpha, 0, 0));
+    sum += n;
+  }
+  const double length_of_mean = length(sum) / kNormals, deficit = 1 - length_of_mean * length_of_mean;
+  const double turn = facet_turn * deficit / (alpha * alpha + deficit);
+  const Cluster patch = bumped(normalise(sum), incident, alpha, deficit, turn);
+  double total = 0, found = 0, difference = 0;
+  for (int i = 0; i < kRows; ++i)
+    for (int j = 0; j < kColumns; ++j) {
+      const double z = (i + 0.5) / kRows, r = std::sqrt(1 - z * z), azimuth = 2 * pi * j / kColumns;
+      const Vec3 u{-r * std::cos(azimuth), -r * std::sin(azimuth), -z};
+      double exact = 0;
+      for (const Cluster& texel : texels) exact += fvpl_emission_flat(texel, u, 0).y / kNormals;
+      const double emitted = fvpl_emission_flat(patch, u, 0).y;
+      total += exact;
+      found += emitted;
+      difference += std::abs(emitted - exact);
+    }
+  return {found / total, difference / total};
+}
+
+// Seen by their mean normal, patches shine too much towards grazing directions.
+TEST(Fvpl, NormalsThatSpreadReflectByThoseThatTurnedToTheHalfVector) {
+  for (const double alpha : {0.1, 0.2, 0.4})
+    for (const double deviation : {0.2, 0.35}) {
+      const PatchError turned = rough_patch(alpha, deviation, 0.6),
+                       straight = rough_patch(alpha, deviation, 0);
+      std::printf("alpha %.1f, slopes %.2f: mean %.3f (by the mean normal %.3f), L1 %.3f (%.3f)\n", alpha,
+                  deviation, turned.mean, straight.mean, turned.l1, straight.l1);
+      EXPECT_LT(turned.l1, 0.8 * straight.l1);
+      EXPECT_NEAR(turned.mean, 1, 0.12);
+    }
 }
 
 // A square of side 1 in the plane z = 0 by 32x32 points that share one watt.

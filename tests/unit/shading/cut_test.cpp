@@ -35,6 +35,7 @@ Lights mixed_lights(const BoxOptions& options) {
     light.normal_deficit = i % 3 == 0 ? 0.1f * static_cast<float>(i % 5) : 0;
     if (i % 2 == 0) light.power_specular = {};
     light.lobe_variance = 0.01f * static_cast<float>(i % 4);
+    light.shading_deficit = 0.005f * static_cast<float>(i % 4);
   }
   return lights;
 }

@@ -89,6 +89,7 @@ TEST(Fvpl, EqualsTheLibrarysIntegrals) {
         for (std::size_t i = 0; i < lights.lights.size(); ++i) {
           lights.lights[i].normal_deficit = i % 3 == 0 ? 0.0f : 0.1f * static_cast<float>(i % 5);
           lights.lights[i].lobe_variance = 0.02f * static_cast<float>(i % 4);
+          lights.lights[i].shading_deficit = 0.01f * static_cast<float>(i % 4);
         }
         test::expect_near_oracle(
             test::shade_box(gbuffer, lights, {}),
