@@ -4,6 +4,7 @@
 // validates: schema and version, parts, channels, types, sizes, finite values and documented ranges; errors
 // name file, part, channel and pixel. Each write() takes the temporary path of an OutputSet.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -77,7 +78,8 @@ Pdf read_pdf(const std::filesystem::path& path);
 
 // What a list of lights holds: lights on surfaces, or lights of an environment, infinitely far away. Those
 // have no position; their power is what arrives on a plane that faces them, W/m^2, and their diffuse lobe its
-// directions, with the axis along the light. Their anchor is 0 and their scene's radius 1: they fit any scene.
+// directions, with the axis along the light. Their anchor is 0 and their scene's radius 1: they fit any
+// scene.
 enum class LightsKind { points, environment };
 
 // Markov chains that sample an RSM (vsgl-gen --method metropolis) and go on in the next frame.
@@ -150,9 +152,14 @@ VisibilityBits read_visibility_bits(const std::filesystem::path& path);
 // The nodes of a light tree that each tile of an image needs, as light-cut chooses them, and which of a
 // tile's pixels see them, where ismap has found that out.
 struct Cut {
+  static constexpr std::size_t kRing =
+      16;  // pixels around a tile where its light is made that of its neighbours
   struct Tile {
     std::uint32_t first = 0, count = 0;  // entries of this tile
     float error = 0;                     // estimated relative error (RMS over the tile) of what was cut off
+    // What the tile's light is multiplied by on its ring (cluster/borders.h), from where it fades into the
+    // tile.
+    std::array<float, kRing> gain{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   };
   int width = 0,
       height = 0;  // of the image; tiles of interop::TILE pixels a side, row by row, cut off at its edges

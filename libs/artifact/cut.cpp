@@ -20,6 +20,7 @@ constexpr Field kTiles[] = {
     {"first", "I", offsetof(Cut::Tile, first)},
     {"count", "I", offsetof(Cut::Tile, count)},
     {"error", "V", offsetof(Cut::Tile, error), Range::non_negative},
+    {"gain", "0123456789ABCDEF", offsetof(Cut::Tile, gain), Range::non_negative},
 };
 
 ExrPart make_cut_part(const std::string& name, const Cut& cut, const Provenance& provenance) {

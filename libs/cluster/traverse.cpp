@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "cluster/borders.h"
 #include "cluster/cells.h"
 #include "cluster/evaluate.h"
 
@@ -301,10 +302,15 @@ TileSamples block_pixels(const GBuffer& gbuffer, int left, int top) {
   return out;
 }
 
-void append(Cut& cut, const TileCut& tile) {
-  cut.tiles.push_back({static_cast<std::uint32_t>(cut.nodes.size()),
-                       static_cast<std::uint32_t>(tile.entries.size()), static_cast<float>(tile.error)});
-  for (const TileCut::Entry& entry : tile.entries) cut.nodes.push_back(entry.node);
+void append(Cut& cut, std::span<const TileCut> tiles) {
+  std::vector<TileRing> rings;
+  for (const TileCut& tile : tiles) {
+    cut.tiles.push_back({static_cast<std::uint32_t>(cut.nodes.size()),
+                         static_cast<std::uint32_t>(tile.entries.size()), static_cast<float>(tile.error)});
+    for (const TileCut::Entry& entry : tile.entries) cut.nodes.push_back(entry.node);
+    rings.push_back(tile.ring);
+  }
+  set_gains(cut, rings);
 }
 
 TreeTraversal::TreeTraversal(const GBuffer& gbuffer, const Lights& lights,
@@ -341,11 +347,30 @@ TileCut TreeTraversal::cut(const TileSamples& samples, const CutCriterion& crite
       .run(start_nodes(criterion.start_level));
 }
 
+TileRing TreeTraversal::ring(int tile, const TileCut& cut, const NodeVisibility& visibility) const {
+  const TileSamples samples = ring_samples(gbuffer_, tile);
+  TileRing out;
+  out.present = samples.present;
+  out.entries = cut.entries.size();
+  if (samples.present == 0) return out;
+  const SampleReceivers receivers = sample_receivers(gbuffer_, samples);
+  for (const TileCut::Entry& entry : cut.entries) {
+    const Mask visible = visibility ? visibility(entry.node, samples) : samples.present;
+    ClusterLight light;
+    evaluate(clusters_[entry.node], receivers, light);
+    for (std::size_t k = 0; k < kTileSamples; ++k) out.light[k] += seen(light.value[k], visible, k);
+  }
+  return out;
+}
+
 std::vector<TileCut> TreeTraversal::cut_all(const CutCriterion& criterion) const {
   std::vector<TileCut> tiles(static_cast<std::size_t>(tile_count(gbuffer_)));
 #pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < tiles.size(); ++i)
-    tiles[i] = cut(tile_samples(gbuffer_, static_cast<int>(i)), criterion, {});
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const int tile = static_cast<int>(i);
+    tiles[i] = cut(tile_samples(gbuffer_, tile), criterion, {});
+    tiles[i].ring = ring(tile, tiles[i], {});
+  }
   return tiles;
 }
 

@@ -39,6 +39,13 @@ struct CutCriterion {
 // Empty: all see all.
 using NodeVisibility = std::function<std::uint32_t(std::uint32_t node, const TileSamples& samples)>;
 
+// The light that a tile's cut sends to the pixels of the ring that it shares with its neighbours (borders.h).
+struct TileRing {
+  std::array<float, kTileSamples> light{};  // luminance, W/(m^2 sr)
+  std::uint32_t present = 0;                // bit k: place k has a pixel that counts
+  std::size_t entries = 0;                  // of the cut
+};
+
 struct TileCut {
   struct Entry {
     std::uint32_t node = 0;
@@ -49,12 +56,13 @@ struct TileCut {
   // are among them: other pixels may.
   std::vector<Entry> entries;
   double error = 0;  // estimate, relative, RMS over the samples
+  TileRing ring;     // of cut_all()
   std::size_t samples = 0;
   std::size_t evaluations = 0;  // nodes times samples
 };
 
-// Adds the entries of the next tile.
-void append(Cut& cut, const TileCut& tile);
+// Adds all tiles of an image, row by row.
+void append(Cut& cut, std::span<const TileCut> tiles);
 
 // A cut is chosen by luminance. All inputs must outlive it; clusters: of pack_clusters(lights). cut() may be
 // called from many threads; its result depends on nothing else, and is the same on every processor.
@@ -69,6 +77,8 @@ class TreeTraversal {
 
   TileCut cut(const TileSamples& samples, const CutCriterion& criterion,
               const NodeVisibility& visibility) const;
+  // What `tile`, whose cut that is, sends to its ring.
+  TileRing ring(int tile, const TileCut& cut, const NodeVisibility& visibility) const;
   // Of all tiles, row by row, where every sample sees every node.
   std::vector<TileCut> cut_all(const CutCriterion& criterion) const;
 

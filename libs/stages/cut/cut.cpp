@@ -27,18 +27,16 @@ struct Totals {
   double squared_error = 0;
 };
 
-// The tiles' entries one after another.
-Totals join(const std::vector<TileCut>& tiles, Cut& cut) {
+Totals total(const std::vector<TileCut>& tiles) {
   Totals totals;
   for (const TileCut& tile : tiles) {
-    append(cut, tile);
     totals.evaluations += tile.evaluations;
     totals.samples += tile.samples;
     if (tile.samples == 0) {
       ++totals.skipped;
       continue;
     }
-    totals.sizes.push_back(cut.tiles.back().count);
+    totals.sizes.push_back(static_cast<std::uint32_t>(tile.entries.size()));
     totals.squared_error += tile.error * tile.error;
   }
   return totals;
@@ -82,7 +80,8 @@ Cut build_cut(const GBuffer& gbuffer, const Lights& lights, const CutParams& par
     const TreeTraversal traversal(gbuffer, lights, clusters);
     tiles = traversal.cut_all(traversal.criterion(params.error));
   }
-  describe(join(tiles, cut), report);
+  append(cut, tiles);
+  describe(total(tiles), report);
   return cut;
 }
 

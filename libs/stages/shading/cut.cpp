@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "cluster/borders.h"
 #include "interop/shading.h"
 #include "math/interop_vec.h"
 #include "stages/shading/cut_pass.h"
@@ -21,16 +22,23 @@ struct Image {
   explicit Image(std::size_t pixels) : diffuse(pixels), specular(pixels) {}
 };
 
-void shade_pixels(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds,
+interop::vec3 scaled(interop::vec3 v, float scale) {
+  return {v.x * scale, v.y * scale, v.z * scale};
+}
+
+void shade_pixels(const GBuffer& gbuffer, const Cut& cut, std::span<const std::uint8_t> kinds,
                   std::span<const std::uint8_t> shaded, CutPass& pass, bool skip, Image& image,
                   Report& report) {
   const std::vector<CutReceivers> lists = sort_into_blocks(gbuffer, kinds, shaded, skip);
   for (const CutReceivers& receivers : lists) pass.prepare(receivers);
   for (const CutReceivers& receivers : lists) {
     const std::vector<interop::CutSums> sums = pass.run(receivers, CutPass::kWords, report);
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < sums.size(); ++i) {
-      image.diffuse[receivers.pixels[i]] = sums[i].diffuse;
-      image.specular[receivers.pixels[i]] = sums[i].specular;
+      const std::uint32_t pixel = receivers.pixels[i];
+      const float gain = gain_at(gbuffer, cut, pixel);
+      image.diffuse[pixel] = scaled(sums[i].diffuse, gain);
+      image.specular[pixel] = scaled(sums[i].specular, gain);
     }
   }
 }
@@ -43,12 +51,12 @@ std::vector<std::uint8_t> all_seen(std::span<const std::uint8_t> kinds) {
 
 // Diffuse pixels from samples at half resolution, with an exact second pass where these differ too much for
 // the error that the cut aims at.
-void shade_at_half(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds, double error, CutPass& pass,
+void shade_at_half(const GBuffer& gbuffer, const Cut& cut, std::span<const std::uint8_t> kinds, CutPass& pass,
                    bool skip, Image& image, Report& report) {
   const HalfResolution half(gbuffer, kinds);
-  shade_pixels(gbuffer, kinds, half.shaded(), pass, skip, image, report);
-  const std::vector<std::uint8_t> rejected = half.interpolate(image.diffuse, error);
-  shade_pixels(gbuffer, kinds, rejected, pass, skip, image, report);
+  shade_pixels(gbuffer, cut, kinds, half.shaded(), pass, skip, image, report);
+  const std::vector<std::uint8_t> rejected = half.interpolate(image.diffuse, cut.error);
+  shade_pixels(gbuffer, cut, kinds, rejected, pass, skip, image, report);
   report.count("diffuse_exact_pixels", half.exact_pixels() + static_cast<std::size_t>(std::count(
                                                                  rejected.begin(), rejected.end(), 1)));
 }
@@ -126,9 +134,9 @@ Indirect shade_cut(const GBuffer& gbuffer, const Lights& lights, const Cut& cut,
   CutPass pass(gbuffer, cut, clusters, params.skip, device);
   Image image(gbuffer.pixels.size());
   if (params.diffuse_scale == 2)
-    shade_at_half(gbuffer, kinds, cut.error, pass, params.skip, image, report);
+    shade_at_half(gbuffer, cut, kinds, pass, params.skip, image, report);
   else
-    shade_pixels(gbuffer, kinds, all_seen(kinds), pass, params.skip, image, report);
+    shade_pixels(gbuffer, cut, kinds, all_seen(kinds), pass, params.skip, image, report);
   report_counts(
       pass.counts(),
       gbuffer.pixels.size() - static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), kBackground)),

@@ -1,9 +1,9 @@
 #include "stages/visibility/cut_visibility.h"
 
 #include <bit>
-#include <optional>
 #include <string>
 
+#include "cluster/borders.h"
 #include "cluster/cluster.h"
 
 namespace vsgl::visibility {
@@ -13,34 +13,15 @@ namespace {
 // at. docs/visibility.md has the measurement.
 constexpr float kMixedShare = 0.02F, kEdgeShare = 0.04F;
 
-// One tile's cut with what its samples see, and the number of looks that this took.
-struct SeenCut {
-  TileCut cut;
-  std::size_t looks = 0;
-
-  std::uint32_t look(const Sight& sight, std::uint32_t node, const TileSamples& samples) {
-    const Seen seen = see_from_samples(sight, node, samples);
-    looks += static_cast<std::size_t>(std::popcount(seen.facing));
-    return seen.visible;
-  }
-};
-
 // The light's share is unknown: every mixed node matters.
-SeenCut take_entries(const Cut& given, std::size_t tile, const TileSamples& samples, const Sight& sight) {
-  SeenCut out;
-  out.cut.error = static_cast<double>(given.tiles[tile].error);
+TileCut take_entries(const Cut& given, std::size_t tile, const TileSamples& samples,
+                     const NodeVisibility& look) {
+  TileCut out;
+  out.error = static_cast<double>(given.tiles[tile].error);
   for (std::uint32_t i = 0; i < given.tiles[tile].count; ++i) {
     const std::uint32_t node = given.nodes[given.tiles[tile].first + i];
-    out.cut.entries.push_back({node, out.look(sight, node, samples), 1});
+    out.entries.push_back({node, look(node, samples), 1});
   }
-  return out;
-}
-
-SeenCut choose_entries(const TreeTraversal& traversal, const CutCriterion& criterion,
-                       const TileSamples& samples, const Sight& sight) {
-  SeenCut out;
-  const auto look = [&](std::uint32_t node, const TileSamples& at) { return out.look(sight, node, at); };
-  out.cut = traversal.cut(samples, criterion, look);
   return out;
 }
 
@@ -102,31 +83,35 @@ Cut find_cut_visibility(const GBuffer& gbuffer, const Lights& tree, const Cut* g
   Cut cut = empty_cut(gbuffer, tree, given ? given->error : params.error);
   std::vector<TileVisibility> tiles(static_cast<std::size_t>(cut.columns()) *
                                     static_cast<std::size_t>(cut.rows()));
-  std::vector<interop::Cluster> clusters;
-  std::optional<TreeTraversal> traversal;
-  CutCriterion criterion;
-  if (!given) {
-    clusters = pack_clusters(tree);
-    traversal.emplace(gbuffer, tree, clusters);
-    criterion = traversal->criterion(params.error);
-  }
+  const std::vector<interop::Cluster> clusters = pack_clusters(tree);
+  const TreeTraversal traversal(gbuffer, tree, clusters);
+  const CutCriterion criterion = given ? CutCriterion{} : traversal.criterion(params.error);
   const auto error = static_cast<float>(params.error);
   const Detail detail{.mixed = kMixedShare * error, .edges = kEdgeShare * error, .exact = params.exact};
+  std::vector<TileRing> rings(tiles.size());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
-    const TileSamples samples = tile_samples(gbuffer, static_cast<int>(tile));
+    const int number = static_cast<int>(tile);
+    const TileSamples samples = tile_samples(gbuffer, number);
     if (samples.present == 0) continue;
-    const TileGrid grid(gbuffer, static_cast<int>(tile), samples);
-    const SeenCut seen = given ? take_entries(*given, tile, samples, sight)
-                               : choose_entries(*traversal, criterion, samples, sight);
-    tiles[tile] = find_tile_visibility(grid, samples, seen.cut, sight, detail);
-    tiles[tile].looks += seen.looks;
+    std::size_t looks = 0;
+    const NodeVisibility look = [&](std::uint32_t node, const TileSamples& at) {
+      const Seen seen = see_from_samples(sight, node, at);
+      looks += static_cast<std::size_t>(std::popcount(seen.facing));
+      return seen.visible;
+    };
+    const TileCut chosen =
+        given ? take_entries(*given, tile, samples, look) : traversal.cut(samples, criterion, look);
+    rings[tile] = traversal.ring(number, chosen, look);
+    tiles[tile] = find_tile_visibility({gbuffer, number, samples}, samples, chosen, sight, detail);
+    tiles[tile].looks += looks;
   }
   Totals totals;
   for (const TileVisibility& tile : tiles) {
     append(cut, tile);
     totals.add(tile);
   }
+  set_gains(cut, rings);
   report_cut(cut, totals, sight.name(), report);
   return cut;
 }

@@ -122,7 +122,7 @@ Cut choose_entries(const VisibilityInputs& inputs, const std::vector<interop::Cl
     cut.lights = static_cast<int>(inputs.lights.lights.size());
     cut.error = error;
     const TreeTraversal traversal(gbuffer, inputs.lights, clusters);
-    for (const TileCut& tile : traversal.cut_all(traversal.criterion(error))) append(cut, tile);
+    append(cut, traversal.cut_all(traversal.criterion(error)));
   }
   cut.masks.assign(cut.nodes.size(), 0);
   cut.mask_words.assign(interop::MASK_WORDS, ~0U);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "stages/visibility/tile_grid.h"
+#include "cluster/continuity.h"
 
 namespace vsgl::visibility {
 namespace {

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <bit>
 
-#include "math/interop_vec.h"
+#include "cluster/continuity.h"
 
 namespace vsgl::visibility {
 namespace {
 
 constexpr std::uint32_t kSpacing = 5;  // pixels between samples
 constexpr std::uint32_t kCells = 3;    // a side, between four samples
-// A sample this far off the pixel's plane, relative to its distance, has a quarter of the weight.
-constexpr double kPlaneTolerance = 0.15;
 // Corner 2 j + i of cell (x, y) is this sample.
 std::uint32_t corner_sample(std::uint32_t cell_x, std::uint32_t cell_y, std::uint32_t corner) {
   return 4 * (cell_y + corner / 2) + cell_x + corner % 2;
@@ -24,18 +22,6 @@ std::uint32_t corner_bits(std::uint32_t sample_bits, std::uint32_t cell) {
 }
 
 }  // namespace
-
-double continuity(const interop::Surface& pixel, const interop::Surface& sample) {
-  const Vec3 normal = to_double(pixel.normal);
-  const double cosine = dot(normal, to_double(sample.normal));
-  if (cosine <= 0) return 0;
-  const Vec3 v = to_double(sample.position) - to_double(pixel.position);
-  const double distance2 = dot(v, v), height = dot(v, normal);
-  const double slope2 = distance2 > 0 ? height * height / distance2 : 0;
-  const double off_plane = 1 + slope2 / (kPlaneTolerance * kPlaneTolerance);
-  const double power4 = cosine * cosine * cosine * cosine, power16 = power4 * power4 * power4 * power4;
-  return power16 / (off_plane * off_plane);
-}
 
 std::uint32_t TileMask::count() const {
   std::uint32_t sum = 0;

@@ -11,11 +11,6 @@
 
 namespace vsgl::visibility {
 
-// How well the surface at `sample` continues that at `pixel`, 0..1. The cosine of their normals counts to its
-// 16th power. Below kContinues it is another surface.
-double continuity(const interop::Surface& pixel, const interop::Surface& sample);
-inline constexpr double kContinues = 0.2;
-
 // A bit for each pixel of a tile: bit y TILE + x is pixel (x, y).
 struct TileMask {
   std::array<std::uint32_t, interop::MASK_WORDS> words{};

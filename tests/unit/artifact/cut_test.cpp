@@ -22,6 +22,8 @@ Cut sample_cut(std::uint32_t entries_a_tile, bool masks, bool shares) {
     const std::uint32_t count = tile == 1 ? 0 : entries_a_tile + tile;
     const auto first = static_cast<std::uint32_t>(cut.nodes.size());
     cut.tiles.push_back({first, count, 0.001f * static_cast<float>(tile)});
+    for (std::size_t k = 0; k < Cut::kRing; ++k)
+      cut.tiles.back().gain[k] = 1 + 0.01f * static_cast<float>(tile + k);
     for (std::uint32_t i = 0; i < count; ++i) cut.nodes.push_back((7 * i + tile) % 5000);
   }
   if (!masks) return cut;
@@ -46,6 +48,7 @@ void expect_equal(const Cut& a, const Cut& b) {
     EXPECT_EQ(a.tiles[i].first, b.tiles[i].first);
     EXPECT_EQ(a.tiles[i].count, b.tiles[i].count);
     EXPECT_EQ(a.tiles[i].error, b.tiles[i].error);
+    EXPECT_EQ(a.tiles[i].gain, b.tiles[i].gain);
   }
   EXPECT_EQ(a.nodes, b.nodes);
   EXPECT_EQ(a.masks, b.masks);

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "cluster/borders.h"
 #include "cluster/cluster.h"
 #include "math/fvpl.h"
 #include "run.h"
@@ -130,7 +131,8 @@ inline Radiance cut_sum(const GBuffer& gbuffer, std::size_t index,
     sum.diffuse += to_double(p.surface.diffuse) * emission * reflection.diffuse;
     sum.specular += to_double(p.surface.specular) * emission * reflection.specular;
   }
-  return sum;
+  const double gain = static_cast<double>(gain_at(gbuffer, cut, static_cast<std::uint32_t>(index)));
+  return {gain * sum.diffuse, gain * sum.specular};
 }
 
 // Largest difference of a layer, over its largest value.

@@ -137,6 +137,23 @@ TEST(Cut, TellsItsSizeAndError) {
   EXPECT_FLOAT_EQ(image.error_estimate[16], 0.25f);
 }
 
+TEST(Cut, IsMultipliedByTheGainsOfItsTiles) {
+  const BoxOptions box = options(interop::NDF_GGX, interop::NDF_NONE, 0.1);
+  const GBuffer gbuffer = test::box_gbuffer(box);
+  const Lights lights = mixed_lights(box);
+  Cut cut = test::whole_cut(gbuffer, lights);
+  const Indirect plain = test::shade_by(cut, gbuffer, lights, kExact);
+  for (std::size_t k = 0; k < Cut::kRing; ++k) cut.tiles[1].gain[k] = 0.8f + 0.02f * static_cast<float>(k);
+  const Indirect image = test::shade_by(cut, gbuffer, lights, kExact);
+  for (std::uint32_t i = 0; i < plain.diffuse.size(); ++i) {
+    const float gain = gain_at(gbuffer, cut, i);
+    EXPECT_NEAR(image.diffuse[i].x, gain * plain.diffuse[i].x, 1e-6f * plain.diffuse[i].x);
+    EXPECT_NEAR(image.specular[i].y, gain * plain.specular[i].y, 1e-6f * plain.specular[i].y);
+  }
+  EXPECT_FLOAT_EQ(gain_at(gbuffer, cut, 16), 0.8f);
+  EXPECT_EQ(gain_at(gbuffer, cut, 15), 1);
+}
+
 TEST(Cut, IsMultipliedByTheVisibleShare) {
   const BoxOptions box = options(interop::NDF_GGX, interop::NDF_NONE, 0.1);
   const GBuffer gbuffer = test::box_gbuffer(box);
