@@ -50,7 +50,8 @@ constexpr int most_step(int place) {
   return place == kLast ? 1 : 0;
 }
 
-// Weighted mean of the tiles that share a pixel of the ring, or 0 where they are not to be brought together.
+// Weighted mean of the tiles that share a pixel of the ring; 0 where there is one alone, or they are not to
+// be brought together.
 class Meeting {
  public:
   void add(const TileRing& ring, std::size_t k) {
@@ -58,14 +59,17 @@ class Meeting {
     const double weight = static_cast<double>(ring.entries) * static_cast<double>(ring.entries);
     sum_ += weight * static_cast<double>(ring.light[k]);
     weights_ += weight;
+    ++tiles_;
     least_ = std::min(least_, ring.light[k]);
     most_ = std::max(most_, ring.light[k]);
   }
   float mean() const {
-    return least_ > 0 && most_ <= kLargestRatio * least_ ? static_cast<float>(sum_ / weights_) : 0;
+    const bool alike = tiles_ > 1 && least_ > 0 && most_ <= kLargestRatio * least_;
+    return alike ? static_cast<float>(sum_ / weights_) : 0;
   }
 
  private:
+  int tiles_ = 0;
   double sum_ = 0, weights_ = 0;
   float least_ = std::numeric_limits<float>::max(), most_ = 0;
 };

@@ -13,14 +13,13 @@ namespace vsgl {
 
 // The pixels {0, 4, 8, 12, 16}^2 of a tile one of whose coordinates is 0 or 16, row by row. Those at 16
 // belong to its neighbours, and each pixel is in the rings of all tiles that it touches; in the last tiles
-// the image's last pixels stand in for those beyond. Present are those in the image whose surface is
-// continued by the nearest pixel of the tile.
+// the image's last pixels stand in for those beyond. Present are those that the surface of the tile's nearest
+// pixel reaches and that have no narrow specular lobe.
 TileSamples ring_samples(const GBuffer& gbuffer, int tile);
 
 // Sets the gains of the cut's tiles, row by row, from what their cuts send to their rings: to the mean of the
-// tiles that a pixel touches, weighted by the squares of the sizes of their cuts, as errors fall about as
-// fast as cuts grow. Where they differ by more than 15% it is for other reasons (something stands in
-// the light): 1.
+// tiles that share a pixel, weighted by the squares of the sizes of their cuts, as errors fall about as fast
+// as cuts grow. Where they differ by more than 15% it is for other reasons (an edge of a shadow): 1.
 void set_gains(Cut& cut, std::span<const TileRing> rings);
 
 // What the light of a pixel's tile is multiplied by: the gains on the sides of the tile, linear between those

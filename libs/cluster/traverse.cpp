@@ -347,7 +347,8 @@ TileCut TreeTraversal::cut(const TileSamples& samples, const CutCriterion& crite
       .run(start_nodes(criterion.start_level));
 }
 
-TileRing TreeTraversal::ring(int tile, const TileCut& cut, const NodeVisibility& visibility) const {
+TileRing TreeTraversal::ring(int tile, const TileCut& cut, const NodeVisibility& visibility,
+                             float small) const {
   const TileSamples samples = ring_samples(gbuffer_, tile);
   TileRing out;
   out.present = samples.present;
@@ -355,7 +356,10 @@ TileRing TreeTraversal::ring(int tile, const TileCut& cut, const NodeVisibility&
   if (samples.present == 0) return out;
   const SampleReceivers receivers = sample_receivers(gbuffer_, samples);
   for (const TileCut::Entry& entry : cut.entries) {
-    const Mask visible = visibility ? visibility(entry.node, samples) : samples.present;
+    Mask visible = samples.present;
+    const bool all = std::popcount(entry.visible) == static_cast<int>(cut.samples);
+    if (entry.share < small && entry.visible == 0) continue;
+    if (visibility && !(entry.share < small && all)) visible = visibility(entry.node, samples);
     ClusterLight light;
     evaluate(clusters_[entry.node], receivers, light);
     for (std::size_t k = 0; k < kTileSamples; ++k) out.light[k] += seen(light.value[k], visible, k);
@@ -369,7 +373,7 @@ std::vector<TileCut> TreeTraversal::cut_all(const CutCriterion& criterion) const
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const int tile = static_cast<int>(i);
     tiles[i] = cut(tile_samples(gbuffer_, tile), criterion, {});
-    tiles[i].ring = ring(tile, tiles[i], {});
+    tiles[i].ring = ring(tile, tiles[i], {}, 0);
   }
   return tiles;
 }

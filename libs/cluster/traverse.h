@@ -77,8 +77,9 @@ class TreeTraversal {
 
   TileCut cut(const TileSamples& samples, const CutCriterion& criterion,
               const NodeVisibility& visibility) const;
-  // What `tile`, whose cut that is, sends to its ring.
-  TileRing ring(int tile, const TileCut& cut, const NodeVisibility& visibility) const;
+  // What `tile`, whose cut that is, sends to its ring. Entries whose share is below `small` are not looked at
+  // from there where the tile's samples agree.
+  TileRing ring(int tile, const TileCut& cut, const NodeVisibility& visibility, float small) const;
   // Of all tiles, row by row, where every sample sees every node.
   std::vector<TileCut> cut_all(const CutCriterion& criterion) const;
 

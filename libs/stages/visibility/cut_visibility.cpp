@@ -102,7 +102,7 @@ Cut find_cut_visibility(const GBuffer& gbuffer, const Lights& tree, const Cut* g
     };
     const TileCut chosen =
         given ? take_entries(*given, tile, samples, look) : traversal.cut(samples, criterion, look);
-    rings[tile] = traversal.ring(number, chosen, look);
+    rings[tile] = traversal.ring(number, chosen, look, detail.mixed);
     tiles[tile] = find_tile_visibility({gbuffer, number, samples}, samples, chosen, sight, detail);
     tiles[tile].looks += looks;
   }
