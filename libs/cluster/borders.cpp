@@ -9,7 +9,8 @@ namespace vsgl {
 namespace {
 
 constexpr int kTile = static_cast<int>(interop::TILE), kSpacing = 4, kLast = kTile / kSpacing;
-constexpr float kLargestRatio = 1.15F;
+// Tiles whose light differs by more, in errors that the cut aims at, differ for other reasons.
+constexpr double kLargestDifference = 1.5;
 // Light reflected by narrower lobes changes faster than the ring's pixels follow.
 constexpr float kNarrowAlpha = 0.1F;
 static_assert(Cut::kRing == kTileSamples && Cut::kRing == 4 * static_cast<std::size_t>(kLast));
@@ -63,8 +64,9 @@ class Meeting {
     least_ = std::min(least_, ring.light[k]);
     most_ = std::max(most_, ring.light[k]);
   }
-  float mean() const {
-    const bool alike = tiles_ > 1 && least_ > 0 && most_ <= kLargestRatio * least_;
+  float mean(double error) const {
+    const double largest = (1 + kLargestDifference * error) * static_cast<double>(least_);
+    const bool alike = tiles_ > 1 && least_ > 0 && static_cast<double>(most_) <= largest;
     return alike ? static_cast<float>(sum_ / weights_) : 0;
   }
 
@@ -83,7 +85,7 @@ float gain_of(const Cut& cut, std::span<const TileRing> rings, int column, int r
          x <= std::min(column + most_step(place.x), cut.columns() - 1); ++x)
       meeting.add(rings[static_cast<std::size_t>(y * cut.columns() + x)],
                   index_of({place.x - kLast * (x - column), place.y - kLast * (y - row)}));
-  const float mean = meeting.mean();
+  const float mean = meeting.mean(cut.error);
   return mean > 0 ? mean / rings[static_cast<std::size_t>(row * cut.columns() + column)].light[k] : 1;
 }
 

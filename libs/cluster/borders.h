@@ -19,7 +19,7 @@ TileSamples ring_samples(const GBuffer& gbuffer, int tile);
 
 // Sets the gains of the cut's tiles, row by row, from what their cuts send to their rings: to the mean of the
 // tiles that share a pixel, weighted by the squares of the sizes of their cuts, as errors fall about as fast
-// as cuts grow. Where they differ by more than 15% it is for other reasons (an edge of a shadow): 1.
+// as cuts grow. Where they differ by more than 1.5 times the error that the cut aims at: 1.
 void set_gains(Cut& cut, std::span<const TileRing> rings);
 
 // What the light of a pixel's tile is multiplied by: the gains on the sides of the tile, linear between those

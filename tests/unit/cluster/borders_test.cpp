@@ -38,6 +38,7 @@ Cut empty_cut() {
   Cut cut;
   cut.width = kWidth;
   cut.height = kHeight;
+  cut.error = 0.1;
   cut.tiles.resize(6);
   return cut;
 }
