@@ -1,6 +1,5 @@
 #include "reference/environment.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -52,26 +51,6 @@ scene::Scene proxied(const scene::Scene& scene, const Proxies& proxies) {
   return out;
 }
 
-// Radiance of the map's texel in a direction of the world.
-class Sky {
- public:
-  explicit Sky(const scene::Environment& environment) : environment_(environment) {}
-
-  Vec3 radiance(Vec3 direction) const {
-    const Mat4& r = environment_.rotation;
-    const auto back = [&](int column) {
-      return r.m[0][column] * direction.x + r.m[1][column] * direction.y + r.m[2][column] * direction.z;
-    };
-    const double u = 0.5 * (1 - std::atan2(back(0), back(2)) / pi),
-                 v = std::acos(std::clamp(back(1), -1.0, 1.0)) / pi;
-    return environment_.at(std::clamp(static_cast<int>(u * environment_.width), 0, environment_.width - 1),
-                           std::clamp(static_cast<int>(v * environment_.height), 0, environment_.height - 1));
-  }
-
- private:
-  const scene::Environment& environment_;
-};
-
 Vec3 cosine_direction(Vec3 normal, std::array<double, 2> u) {
   const double r = std::sqrt(u[0]), azimuth = 2 * pi * u[1];
   return frame_about(normal).to_world({r * std::cos(azimuth), r * std::sin(azimuth), std::sqrt(1 - u[0])});
@@ -79,7 +58,8 @@ Vec3 cosine_direction(Vec3 normal, std::array<double, 2> u) {
 
 class EnvironmentEstimator {
  public:
-  EnvironmentEstimator(const Sky& sky, const Blockers& blockers, const EnvironmentParams& params, int points)
+  EnvironmentEstimator(const scene::Environment& sky, const Blockers& blockers,
+                       const EnvironmentParams& params, int points)
       : sky_(sky),
         blockers_(blockers),
         shadowed_(params.bounce == "shadowed"),
@@ -101,7 +81,7 @@ class EnvironmentEstimator {
       if (const auto hit = view->first(direction))
         sum.indirect += reflected(*hit, second[i]);
       else
-        sum.direct += sky_.radiance(direction);
+        sum.direct += scene::radiance_from(sky_, direction);
     }
     const Vec3 albedo = to_double(pixel.diffuse) / points_.count();
     return {albedo * sum.direct, albedo * sum.indirect};
@@ -111,10 +91,10 @@ class EnvironmentEstimator {
   Vec3 reflected(const BlockerPoint& at, std::array<double, 2> u) const {
     const Vec3 direction = cosine_direction(at.shading_normal, u);
     if (dot(direction, at.normal) <= 0 || (shadowed_ && blockers_.hides(at, direction))) return {};
-    return at.albedo * sky_.radiance(direction);
+    return at.albedo * scene::radiance_from(sky_, direction);
   }
 
-  const Sky& sky_;
+  const scene::Environment& sky_;
   const Blockers& blockers_;
   bool shadowed_;
   Points points_;
@@ -131,8 +111,7 @@ Reference trace_environment(const scene::Scene& scene, const scene::Environment&
   const auto blockers =
       params.blockers == "spheres" ? sphere_blockers(proxies->spheres()) : mesh_blockers(meshes);
   const int points = (params.samples + kPasses - 1) / kPasses;
-  const Sky sky(environment);
-  const EnvironmentEstimator estimator(sky, *blockers, params, points);
+  const EnvironmentEstimator estimator(environment, *blockers, params, points);
   Accumulator direct(gbuffer.width, gbuffer.height), indirect(gbuffer.width, gbuffer.height);
   std::vector<std::uint32_t> seen;
   for (std::uint32_t i = 0; i < gbuffer.pixels.size(); ++i)

@@ -74,6 +74,17 @@ Vec3 environment_direction(double u, double v) {
   return {std::sin(longitude) * std::sin(polar), std::cos(polar), std::cos(longitude) * std::sin(polar)};
 }
 
+Vec3 radiance_from(const Environment& environment, Vec3 direction) {
+  const Mat4& r = environment.rotation;
+  const auto back = [&](int column) {
+    return r.m[0][column] * direction.x + r.m[1][column] * direction.y + r.m[2][column] * direction.z;
+  };
+  const double u = 0.5 * (1 - std::atan2(back(0), back(2)) / pi),
+               v = std::acos(std::clamp(back(1), -1.0, 1.0)) / pi;
+  return environment.at(std::clamp(static_cast<int>(u * environment.width), 0, environment.width - 1),
+                        std::clamp(static_cast<int>(v * environment.height), 0, environment.height - 1));
+}
+
 // Integrals over the texel in closed form: of 1, cos and sin times the area element sin(polar).
 EnvironmentTexel environment_texel(const Environment& environment, int column, int row) {
   const double step = pi / environment.height;

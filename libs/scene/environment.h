@@ -37,6 +37,9 @@ Environment read_environment(const EnvironmentSpec& spec);
 
 // Unit direction, in the map's frame, to the point (u, v) of the map, 0..1 from its upper left corner.
 Vec3 environment_direction(double u, double v);
+// Radiance of the texel in a unit direction of the world: environment_direction turned round, after the
+// map's rotation.
+Vec3 radiance_from(const Environment& environment, Vec3 direction);
 
 // What the texels of column `column` and row `row` cover: directions in the map's frame.
 struct EnvironmentTexel {

@@ -33,27 +33,10 @@ void for_each_sight(double sine, Visit visit) {
 
 }  // namespace
 
-EmissionZonal mean_emission(double sine) {
-  EmissionZonal sums{};
-  for_each_sight(sine, [&](const Sight& sight) {
-    const Vector y = basis(sight.normal);
-    for (int l = 0; l < kEmissionOrder; ++l) sums[l] += sight.weight * y[index(l, 0)];
-  });
-  for (double& sum : sums) sum /= below_of_sine(sine);
-  return sums;
-}
-
-EmissionZonal mean_emission_closed(double sine) {
-  const double d = 1 / sine, e = std::sqrt(std::fmax(d * d - 1, 0.0)), d2 = d * d, d3 = d2 * d;
-  return {1 / (2 * std::sqrt(pi)),
-          -std::sqrt(3.0) * (2 * d3 - 2 * e * d2 - e + 1) / (6 * std::sqrt(pi) * d * (d - e)),
-          std::sqrt(5.0) * (6 * d2 * d3 - 6 * e * d2 * d2 - 3 * e * d2 - e + 4) /
-              (20 * std::sqrt(pi) * d2 * (d - e))};
-}
-
-EmissionZonal mean_emission_polynomial(double a) {
-  return {0.28209, (0.08432 * a - 0.25073) * a - 0.32494,
-          ((-0.22230 * a + 0.22502) * a + 0.47398) * a + 0.15950};
+EmissionZonal mean_emission(double a) {
+  const double c = std::sqrt(std::fmax(1 - a * a, 0.0));
+  return {1 / std::sqrt(4 * pi), -std::sqrt(3 / pi) / 6 * (1 + a + c + a / (1 + c)),
+          std::sqrt(5 / pi) / 20 * (3 + 3 / (1 + c) - c - c * c + 4 * a * (1 + c))};
 }
 
 EmissionMatrix emission_matrix(double sine) {

@@ -11,9 +11,9 @@ using EmissionZonal = std::array<double, kEmissionOrder>;
 
 // [Sloan 2007, Eq. (14)] mean of the basis over the visible part of a sphere about (0,0,1), seen from the
 // origin at the half angle theta: D(theta), zonal. `sine` = sin(theta), 0..1.
-EmissionZonal mean_emission(double sine);             // by quadrature
-EmissionZonal mean_emission_closed(double sine);      // the paper's formula; cancels below 0.01
-EmissionZonal mean_emission_polynomial(double sine);  // the paper's fit, as it is printed
+// Deviation: the paper's closed form multiplied out by d + sqrt(d^2 - 1), so that nothing cancels, in place
+// of the polynomials that it fits.
+EmissionZonal mean_emission(double sine);
 
 // [Sloan 2007, Eq. (16)] M(theta): the radiance of that sphere as a function of direction, in SH of order 3,
 // from the irradiance, in SH of order 3. It couples coefficients of equal m only, and m and -m alike: `at(j,

@@ -5,12 +5,14 @@
 
 VSGL_INTEROP_BEGIN
 
+VSGL_CONST uint PROXY_EXPOSURES = 5u;
 struct Proxy {
   vec3 center;  // m, relative to the anchor
   float radius;
-  vec3 albedo;  // over pi: radiance per irradiance
+  vec3 albedo;                     // over pi: radiance per irradiance
+  float exposed[PROXY_EXPOSURES];  // share that counts, 0..1, at distances of 2^i radii
 };
-VSGL_CHECK_SIZE(Proxy, 28)
+VSGL_CHECK_SIZE(Proxy, 48)
 
 // A point that receives light. Receivers come in groups of PROXY_GROUP that lie near one another.
 struct ProxyReceiver {
@@ -25,7 +27,7 @@ VSGL_CONST uint PROXY_GROUP = 64u;
 struct ProxySums {
   vec4 log_occlusion[4];  // SH of order 4
   vec3 indirect;          // irradiance, not yet normalised
-  float solid_angle;      // sr
+  float covering;         // side by side: irradiance of an even sky of radiance 1, or solid angle, sr
 };
 VSGL_CHECK_SIZE(ProxySums, 80)
 
@@ -72,11 +74,11 @@ struct ProxyAccumulatePush {
 VSGL_CHECK_SIZE(ProxyAccumulatePush, 8)
 
 struct ProxyUpsamplePush {
-  vec3 camera;      // relative to the anchor, m
-  uint width;       // of the image, pixels
+  vec3 camera;  // relative to the anchor, m
+  uint width;   // of the image, pixels
   uint height;
-  uint rate;        // pixels a side that one receiver stands for
-  uint columns;     // receivers a row
+  uint rate;     // pixels a side that one receiver stands for
+  uint columns;  // receivers a row
   uint rows;
 };
 VSGL_CHECK_SIZE(ProxyUpsamplePush, 32)
@@ -90,13 +92,16 @@ VSGL_CHECK_SIZE(ProxyPixel, 28)
 VSGL_CONST uint PROXY_NO_SLOT = 0xFFFFFFFFu;
 
 // Specialisation constants.
-VSGL_CONST uint PROXY_FILL_ID = 0u;      // cull: 0 counts, 1 lists
-VSGL_CONST uint PROXY_OPERATOR_ID = 1u;  // accumulate: PROXY_POINT..
-VSGL_CONST uint PROXY_EXP_ID = 2u;       // exponentiate: PROXY_SECOND_ORDER..
-VSGL_CONST uint PROXY_UPSAMPLE_ID = 3u;  // upsample: PROXY_BILINEAR..
+VSGL_CONST uint PROXY_FILL_ID = 0u;           // cull: 0 counts, 1 lists
+VSGL_CONST uint PROXY_OPERATOR_ID = 1u;       // accumulate: PROXY_POINT..
+VSGL_CONST uint PROXY_EXP_ID = 2u;            // exponentiate: PROXY_SECOND_ORDER..
+VSGL_CONST uint PROXY_UPSAMPLE_ID = 3u;       // upsample: PROXY_BILINEAR..
+VSGL_CONST uint PROXY_NORMALISATION_ID = 4u;  // accumulate, exponentiate: PROXY_COSINE..
 VSGL_CONST uint PROXY_POINT = 0u;
 VSGL_CONST uint PROXY_AVERAGED = 1u;
 VSGL_CONST uint PROXY_EXACT = 2u;
+VSGL_CONST uint PROXY_COSINE = 0u;
+VSGL_CONST uint PROXY_SOLID_ANGLE = 1u;
 VSGL_CONST uint PROXY_SECOND_ORDER = 0u;
 VSGL_CONST uint PROXY_HYB = 1u;
 VSGL_CONST uint PROXY_BILINEAR = 0u;

@@ -7,6 +7,7 @@
 
 layout(local_size_x = PROXY_GROUP) in;
 layout(constant_id = PROXY_EXP_ID) const uint EXPONENTIAL = PROXY_SECOND_ORDER;
+layout(constant_id = PROXY_NORMALISATION_ID) const uint NORMALISATION = PROXY_COSINE;
 layout(scalar, binding = 0) readonly buffer Receivers { ProxyReceiver receivers[]; };
 layout(scalar, binding = 1) buffer Sums { ProxySums sums[]; };  // occlusions take the logarithms' place
 layout(scalar, binding = 2) readonly buffer Light { vec3 light[16]; };
@@ -80,8 +81,12 @@ void main() {
   sh_product(occlusion, cosine, seen);
   vec3 direct = vec3(0.0);
   for (int i = 0; i < 16; ++i) direct += seen[i] * light[i];
-  // [Sloan 2007, Eq. (12)]
-  const float covered = (SQRT_4PI - occlusion[0]) * SQRT_4PI;
-  const float share = sum.solid_angle > 0.0 ? clamp(covered / sum.solid_angle, 0.0, 1.0) : 1.0;
+  // What is left of an even sky: blockers take light, though products that are cut off may say otherwise.
+  const float open = seen[0] * SQRT_4PI;
+  direct *= PI / max(open, PI);
+  // [Sloan 2007, Eq. (12)] by solid angles.
+  // Deviation: or by irradiances of an even sky, so that the proxies never give more than they hide.
+  const float covered = NORMALISATION == PROXY_COSINE ? clamp(PI - open, 0.0, PI) : (SQRT_4PI - occlusion[0]) * SQRT_4PI;
+  const float share = sum.covering > 0.0 ? clamp(covered / sum.covering, 0.0, 1.0) : 1.0;
   shades[receiver] = ProxyShade(direct, share * sum.indirect);
 }

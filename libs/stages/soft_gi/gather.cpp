@@ -8,6 +8,7 @@
 #include "spirv/proxy/accumulate.comp.glsl.h"
 #include "spirv/proxy/cull.comp.glsl.h"
 #include "spirv/proxy/exponentiate.comp.glsl.h"
+#include "stages/soft_gi/exposure.h"
 #include "stages/soft_gi/tables.h"
 
 namespace vsgl::soft_gi {
@@ -19,11 +20,18 @@ using interop::ProxyReceiver, interop::PROXY_GROUP;
 constexpr std::size_t kPartGroups = 1 << 14;  // at once: 80 MiB of sums
 constexpr std::uint32_t kCullGroup = 64;
 
-std::vector<interop::Proxy> pack(const Proxies& proxies) {
+std::vector<interop::Proxy> pack(const std::vector<ProxySphere>& spheres, const std::string& overlap) {
+  Exposure whole;
+  whole.fill(1);
+  const bool measured = find_method(overlaps(), overlap, "overlap").kind != 0;
+  const std::vector<Exposure> shares =
+      measured ? exposures(spheres) : std::vector<Exposure>(spheres.size(), whole);
   std::vector<interop::Proxy> out;
-  for (const ProxySphere& sphere : proxies.spheres())
-    out.push_back({to_float(sphere.center), static_cast<float>(sphere.radius),
-                   to_float(sphere.albedo / std::numbers::pi)});
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const auto& [center, radius, albedo] = spheres[i];
+    out.push_back({to_float(center), static_cast<float>(radius), to_float(albedo / std::numbers::pi), {}});
+    std::ranges::copy(shares[i], out.back().exposed);
+  }
   return out;
 }
 
@@ -32,6 +40,10 @@ std::vector<interop::vec3> pack(const ColourVector& light) {
   for (int i = 0; i < sh::kCoefficients; ++i)
     out.push_back(to_float({light[0][i], light[1][i], light[2][i]}));
   return out;
+}
+
+std::uint32_t normalisation_of(const SoftGiParams& params) {
+  return find_method(normalisations(), params.normalisation, "normalisation").kind;
 }
 
 gpu::ComputePipeline cull_pipeline(gpu::Device& device, std::uint32_t fill) {
@@ -44,12 +56,12 @@ gpu::ComputePipeline cull_pipeline(gpu::Device& device, std::uint32_t fill) {
 
 }  // namespace
 
-Gatherer::Gatherer(const Proxies& proxies, const ColourVector& light, const Influence& influence,
-                   const SoftGiParams& params, gpu::Device& device)
+Gatherer::Gatherer(const std::vector<ProxySphere>& proxies, const ColourVector& light,
+                   const Influence& influence, const SoftGiParams& params, gpu::Device& device)
     : device_(device),
-      count_(static_cast<std::uint32_t>(proxies.spheres().size())),
+      count_(static_cast<std::uint32_t>(proxies.size())),
       influence_(influence),
-      proxies_(Buffer::from(device, pack(proxies))),
+      proxies_(Buffer::from(device, pack(proxies, params.overlap))),
       table_(Buffer::from(device, proxy_table())),
       form_(Buffer::from(device, std::vector{irradiance_form(light)})),
       light_(Buffer::from(device, pack(light))),
@@ -58,10 +70,12 @@ Gatherer::Gatherer(const Proxies& proxies, const ColourVector& light, const Infl
       fill_lists_(cull_pipeline(device, 1)),
       accumulate_(device, accumulate_comp_spv, std::vector<Binding>(7, Binding::storage),
                   sizeof(interop::ProxyAccumulatePush),
-                  {{interop::PROXY_OPERATOR_ID, find_method(emissions(), params.emission, "emission").kind}}),
+                  {{interop::PROXY_OPERATOR_ID, find_method(emissions(), params.emission, "emission").kind},
+                   {interop::PROXY_NORMALISATION_ID, normalisation_of(params)}}),
       exponentiate_(
           device, exponentiate_comp_spv, std::vector<Binding>(5, Binding::storage), 0,
-          {{interop::PROXY_EXP_ID, find_method(exponentials(), params.exponential, "exponential").kind}}) {}
+          {{interop::PROXY_EXP_ID, find_method(exponentials(), params.exponential, "exponential").kind},
+           {interop::PROXY_NORMALISATION_ID, normalisation_of(params)}}) {}
 
 // Counts first, so that the lists have exactly the room that they need.
 Gatherer::Lists Gatherer::cull(Buffer& receivers, std::uint32_t groups, Report& report) {

@@ -24,8 +24,8 @@ struct Gathered {
 
 class Gatherer {
  public:
-  // Everything given must outlive it.
-  Gatherer(const Proxies& proxies, const ColourVector& light, const Influence& influence,
+  // The device must outlive it.
+  Gatherer(const std::vector<ProxySphere>& proxies, const ColourVector& light, const Influence& influence,
            const SoftGiParams& params, gpu::Device& device);
 
   Gathered gather(const ReceiverGroups& groups, bool with_occlusion, Report& report);

@@ -8,6 +8,7 @@
 #include "math/interop_vec.h"
 #include "sh/emission.h"
 #include "sh/product.h"
+#include "stages/soft_gi/directions.h"
 
 namespace vsgl::soft_gi {
 namespace {
@@ -20,17 +21,6 @@ void add(ColourVector& sum, Vec3 colour, const sh::Vector& y) {
   const auto [r, g, b] = to_array(colour);
   for (int i = 0; i < sh::kCoefficients; ++i)
     sum[0][i] += r * y[i], sum[1][i] += g * y[i], sum[2][i] += b * y[i];
-}
-
-// Fibonacci's spiral.
-std::vector<Vec3> directions(int count) {
-  std::vector<Vec3> out;
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z),
-                 azimuth = pi * (3 - std::sqrt(5.0)) * i;
-    out.push_back({r * std::cos(azimuth), r * std::sin(azimuth), z});
-  }
-  return out;
 }
 
 Vec3 evaluate(const ColourVector& light, const sh::Vector& y) {
@@ -58,16 +48,21 @@ double largest_sine(double tolerance, Effect effect) {
 }  // namespace
 
 ColourVector project(const scene::Environment& environment) {
+  std::vector<Vec3> equator;
+  for (int column = 0; column < environment.width; ++column)
+    equator.push_back(scene::environment_direction((column + 0.5) / environment.width, 0.5));
   std::vector<ColourVector> rows(static_cast<std::size_t>(environment.height));
 #pragma omp parallel for
-  for (int row = 0; row < environment.height; ++row)
+  for (int row = 0; row < environment.height; ++row) {
+    const double solid_angle = scene::environment_texel(environment, 0, row).solid_angle;
+    const Vec3 middle = scene::environment_direction(0.5, (row + 0.5) / environment.height);
     for (int column = 0; column < environment.width; ++column) {
-      const double solid_angle = scene::environment_texel(environment, column, row).solid_angle;
-      const Vec3 there =
-          scene::environment_direction((column + 0.5) / environment.width, (row + 0.5) / environment.height);
+      const Vec3 turn = equator[static_cast<std::size_t>(column)];
+      const Vec3 there{turn.x * middle.z, middle.y, turn.z * middle.z};
       add(rows[static_cast<std::size_t>(row)], solid_angle * environment.at(column, row),
           sh::basis(environment.rotation.direction(there)));
     }
+  }
   ColourVector sum{};
   for (const ColourVector& row : rows)
     for (int c = 0; c < 3; ++c)

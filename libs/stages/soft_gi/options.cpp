@@ -10,6 +10,8 @@ void add_options(CLI::App& app, SoftGiParams& params) {
   add_choice(app, "--emission", emissions(), params.emission, "radiance of a lit proxy");
   add_choice(app, "--exponential", exponentials(), params.exponential, "exponential of summed logarithms");
   add_choice(app, "--upsample", upsamplers(), params.upsample, "pixels between receivers");
+  add_choice(app, "--normalisation", normalisations(), params.normalisation, "light of proxies that overlap");
+  add_choice(app, "--overlap", overlaps(), params.overlap, "how much of each proxy counts");
   app.add_option("--shadow-influence", params.shadow_influence,
                  "reach of a proxy's shadow, in its radii (default: chosen for the environment)")
       ->check(CLI::Range(1.0, 1000.0));

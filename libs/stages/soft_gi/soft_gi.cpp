@@ -41,9 +41,8 @@ Influence influence_of(const ColourVector& light, const SoftGiParams& params) {
           params.indirect_influence.value_or(chosen.indirect)};
 }
 
-void describe(const Gathered& gathered, const ReceiverGroups& groups, const Proxies& proxies,
-              Report& report) {
-  report.count("proxies", proxies.spheres().size());
+void describe(const Gathered& gathered, const ReceiverGroups& groups, std::size_t proxies, Report& report) {
+  report.count("proxies", proxies);
   report.count("receivers",
                std::ranges::count_if(groups.receivers, [](const auto& r) { return r.seen != 0; }));
   report.count("groups", groups.groups());
@@ -52,7 +51,7 @@ void describe(const Gathered& gathered, const ReceiverGroups& groups, const Prox
   if (gathered.empty > 0)
     report.skipped(std::to_string(gathered.empty) + " groups of receivers",
                    "no proxy's influence reaches them");
-  if (proxies.spheres().empty()) report.skipped("shadows and indirect light", "there are no proxies");
+  if (proxies == 0) report.skipped("shadows and indirect light", "there are no proxies");
 }
 
 Occlusion occlusion_of(const Gathered& gathered, const ReceiverGroups& groups, const ReceiverGrid& grid) {
@@ -133,6 +132,23 @@ const std::vector<SoftGiMethod>& upsamplers() {
   return all;
 }
 
+const std::vector<SoftGiMethod>& normalisations() {
+  static const std::vector<SoftGiMethod> all = {
+      {"cosine", "they give at most what they hide of an even sky", interop::PROXY_COSINE},
+      {"solid-angle", "by the share of the sphere that they cover together (2007)",
+       interop::PROXY_SOLID_ANGLE},
+  };
+  return all;
+}
+
+const std::vector<SoftGiMethod>& overlaps() {
+  static const std::vector<SoftGiMethod> all = {
+      {"exposed", "the share of it that its neighbours leave exposed", 1},
+      {"whole", "all of it (2007)", 0},
+  };
+  return all;
+}
+
 Indirect shade_soft_gi(const GBuffer& gbuffer, const Proxies& proxies, const scene::Environment& environment,
                        const SoftGiParams& params, gpu::Device& device, Report& report,
                        Occlusion* occlusion) {
@@ -149,11 +165,12 @@ Indirect shade_soft_gi(const GBuffer& gbuffer, const Proxies& proxies, const sce
   report.count("shadow_influence", influence.shadow);
   report.count("indirect_influence", influence.indirect);
   const PhaseTimer timer(report, "shade");
-  Gatherer gatherer(proxies, light, influence, params, device);
+  const std::vector<ProxySphere> spheres = proxies.spheres();
+  Gatherer gatherer(spheres, light, influence, params, device);
   const ReceiverGrid grid(gbuffer, params.rate);
   const ReceiverGroups groups = group_grid(gbuffer, grid);
   const Gathered gathered = gatherer.gather(groups, occlusion != nullptr, report);
-  describe(gathered, groups, proxies, report);
+  describe(gathered, groups, spheres.size(), report);
   if (occlusion) *occlusion = occlusion_of(gathered, groups, grid);
   if (params.rate == 1) return reflect(gbuffer, spread(gathered, groups), report);
   Upsampled upsampled = upsample(gbuffer, grid, groups, gathered.shades, upsampler, device, report);

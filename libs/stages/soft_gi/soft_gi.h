@@ -23,18 +23,23 @@ struct SoftGiParams {
   std::string emission = "averaged";         // of emissions(): radiance of a proxy
   std::string exponential = "second-order";  // of exponentials()
   std::string upsample = "plane";            // of upsamplers()
+  std::string normalisation = "cosine";      // of normalisations()
+  std::string overlap = "exposed";           // of overlaps()
   // Radii of spheres of influence, over the proxies', 1..1000; without: chosen for the environment.
   std::optional<double> shadow_influence{}, indirect_influence{};
-  double tolerance = 1.0 / 256;  // of that choice: difference of shade over the largest there is, 1e-5..0.5
+  // Of that choice: difference of shade over the largest there is, 1e-5..0.5.
+  double tolerance = 1.0 / 4096;
 };
 
 struct SoftGiMethod {
   std::string name, summary;
-  std::uint32_t kind;  // interop::PROXY_*
+  std::uint32_t kind;  // interop::PROXY_*; of overlaps(): whether exposures are measured
 };
 const std::vector<SoftGiMethod>& emissions();
 const std::vector<SoftGiMethod>& exponentials();
 const std::vector<SoftGiMethod>& upsamplers();
+const std::vector<SoftGiMethod>& normalisations();  // of light from proxies that overlap
+const std::vector<SoftGiMethod>& overlaps();        // how much of a proxy counts
 
 // Radiance of every pixel: `direct` from the environment, with the proxies' shadows, and `diffuse` from the
 // proxies. Diffuse reflection alone. `occlusion`: the receivers' vectors, where not null. The same bytes for

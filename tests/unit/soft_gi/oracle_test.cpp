@@ -10,6 +10,7 @@
 #include "sh/exponential.h"
 #include "sh/proxy_sphere.h"
 #include "soft_gi_scene.h"
+#include "stages/soft_gi/exposure.h"
 
 namespace vsgl {
 namespace {
@@ -48,11 +49,23 @@ Vec3 exact_irradiance(const ColourVector& lit, Vec3 center, double radius, Vec3 
   return {sh::dot(radiance[0], turned), sh::dot(radiance[1], turned), sh::dot(radiance[2], turned)};
 }
 
+// Of a cap of radiance 1.
+double cap_irradiance(double below, Vec3 d, Vec3 normal) {
+  return std::max(sh::dot(sh::turn(sh::cap(below), d), sh::turn(sh::clamped_cosine(), normal)), 0.0);
+}
+
+// Straight between the distances of 2^i radii for which it is stated, by the logarithm.
+double exposure(const soft_gi::Exposure& shares, double sine) {
+  const double place = std::clamp(-std::log2(sine), 0.0, static_cast<double>(shares.size() - 1));
+  const auto level = std::min(static_cast<std::size_t>(place), shares.size() - 2);
+  const double part = place - static_cast<double>(level);
+  return (1 - part) * static_cast<double>(shares[level]) + part * static_cast<double>(shares[level + 1]);
+}
+
 Vec3 disk_irradiance(const ColourVector& lit, Vec3 d, double sine, Vec3 normal, bool averaged) {
-  const sh::EmissionZonal mean = sh::mean_emission_polynomial(sine);
+  const sh::EmissionZonal mean = sh::mean_emission(sine);
   const sh::Vector bands = averaged ? sh::turn({mean[0], mean[1], mean[2], 0}, d) : sh::basis(-d);
-  const double cap =
-      sh::dot(sh::turn(sh::cap(sh::below_of_sine(sine)), d), sh::turn(sh::clamped_cosine(), normal));
+  const double cap = cap_irradiance(sh::below_of_sine(sine), d, normal);
   const Vec3 radiance = evaluate(lit, bands);
   return cap * Vec3{std::max(radiance.x, 0.0), std::max(radiance.y, 0.0), std::max(radiance.z, 0.0)};
 }
@@ -60,8 +73,9 @@ Vec3 disk_irradiance(const ColourVector& lit, Vec3 d, double sine, Vec3 normal, 
 struct Shade {
   Vec3 direct, indirect;
 };
-Shade shade_in_double(const Point& at, const std::vector<ProxySphere>& spheres, const ColourVector& light,
-                      const std::string& emission) {
+Shade shade_in_double(const Point& at, const std::vector<ProxySphere>& spheres,
+                      const std::vector<soft_gi::Exposure>& shares, const ColourVector& light,
+                      const std::string& emission, bool published) {
   ColourVector lit;
   for (int c = 0; c < 3; ++c) {
     lit[c] = sh::convolve(light[c], sh::clamped_cosine());
@@ -69,25 +83,28 @@ Shade shade_in_double(const Point& at, const std::vector<ProxySphere>& spheres, 
   }
   sh::Vector log{};
   Vec3 indirect;
-  double solid_angle = 0;
-  for (const ProxySphere& sphere : spheres) {
+  double covering = 0;
+  for (std::size_t s = 0; s < spheres.size(); ++s) {
+    const ProxySphere& sphere = spheres[s];
     const auto [center, radius] = sh::above_plane({sphere.center - at.position, sphere.radius}, at.normal);
     if (radius <= 0) continue;
     const double distance = length(center), sine = std::min(radius / distance, 1.0);
     const Vec3 d = center / distance;
     const double below = sh::below_of_sine(sine);
+    const double share = published ? 1 : exposure(shares[s], sine);
     const sh::Vector f = sh::turn(sh::log_occlusion(below), d);
-    for (int i = 0; i < 16; ++i) log[i] += f[i];
-    solid_angle += 2 * pi * below;
-    indirect += sphere.albedo / pi *
+    for (int i = 0; i < 16; ++i) log[i] += share * f[i];
+    covering += share * (published ? 2 * pi * below : cap_irradiance(below, d, at.normal));
+    indirect += share * sphere.albedo / pi *
                 (emission == "exact" ? exact_irradiance(lit, center, radius, at.normal)
                                      : disk_irradiance(lit, d, sine, at.normal, emission == "averaged"));
   }
   const sh::Vector occlusion = sh::exp_exact(log);
   const sh::Vector seen = sh::product(occlusion, sh::turn(sh::clamped_cosine(), at.normal));
-  const double covered = (sh::one()[0] - occlusion[0]) * sh::one()[0];
-  const double share = solid_angle > 0 ? std::clamp(covered / solid_angle, 0.0, 1.0) : 1;
-  return {evaluate(light, seen) / pi, share * indirect / pi};
+  const double open = seen[0] * sh::one()[0];
+  const double covered = published ? (sh::one()[0] - occlusion[0]) * sh::one()[0] : pi - open;
+  const double share = covering > 0 ? std::clamp(covered / covering, 0.0, 1.0) : 1;
+  return {std::min(pi / open, 1.0) * evaluate(light, seen) / pi, share * indirect / pi};
 }
 
 struct Case {
@@ -107,6 +124,7 @@ TEST(SoftGiOracle, DeviceFollowsTheFormulas) {
       spheres.push_back({{uniform(random), uniform(random), uniform(random)},
                          setting.largest * (0.55 + 0.45 * uniform(random)),
                          {0.9, 0.6, 0.3}});
+    const auto shares = soft_gi::exposures(spheres);
     std::vector<Point> points;
     for (int i = 0; i < 40; ++i)
       points.push_back({{2 * uniform(random), 2 * uniform(random), 2 * uniform(random)},
@@ -116,9 +134,11 @@ TEST(SoftGiOracle, DeviceFollowsTheFormulas) {
         SoftGiParams params = everywhere();
         params.emission = emission.name;
         params.exponential = exponential.name;
+        const bool published = exponential.name == "hyb";
+        if (published) params.normalisation = "solid-angle", params.overlap = "whole";
         const Indirect image = shade(gbuffer_of(points), proxies_of(spheres), sky, params);
         for (std::size_t i = 0; i < points.size(); ++i) {
-          const Shade expected = shade_in_double(points[i], spheres, light, emission.name);
+          const Shade expected = shade_in_double(points[i], spheres, shares, light, emission.name, published);
           EXPECT_LE(length(widen(image.direct[i]) - expected.direct), setting.tolerance)
               << setting.spheres << " spheres, " << exponential.name << ", receiver " << i;
           EXPECT_LE(length(widen(image.diffuse[i]) - expected.indirect), setting.tolerance)

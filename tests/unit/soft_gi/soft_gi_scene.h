@@ -76,5 +76,12 @@ inline SoftGiParams everywhere() {
   params.shadow_influence = params.indirect_influence = 1000;
   return params;
 }
+// The same, with overlaps as the paper has them.
+inline SoftGiParams as_published() {
+  SoftGiParams params = everywhere();
+  params.normalisation = "solid-angle";
+  params.overlap = "whole";
+  return params;
+}
 
 }  // namespace vsgl::test

@@ -4,13 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
 #include "../expect_error.h"
+#include "math/frame.h"
 #include "scene/transform.h"
 #include "sh/basis.h"
 #include "soft_gi_scene.h"
+#include "stages/soft_gi/exposure.h"
 
 namespace vsgl {
 namespace {
@@ -41,6 +44,24 @@ std::vector<Point> floor_points(int side) {
     for (int column = 0; column < side; ++column)
       out.push_back({{4.0 * column / side - 2, 0, 4.0 * row / side - 2}, kUp});
   return out;
+}
+
+// A sky that is one of the basis functions, and light enough besides to be positive.
+TEST(SoftGi, ProjectionFindsTheSkysCoefficients) {
+  for (int k = 1; k < sh::kCoefficients; ++k) {
+    const auto light = soft_gi::project(sky_of(
+        [&](Vec3 d) {
+          return Vec3{2 + sh::basis(d)[k], 2, 2 - sh::basis(d)[k]};
+        },
+        128));
+    for (int i = 1; i < sh::kCoefficients; ++i) {
+      EXPECT_NEAR(light[0][i], i == k, 2e-3) << k << ", " << i;
+      EXPECT_NEAR(light[2][i], -(i == k), 2e-3) << k << ", " << i;
+    }
+    EXPECT_NEAR(light[1][0], 2 * std::sqrt(4 * pi), 1e-9);
+    EXPECT_LT(soft_gi::least_radiance(light), 1.98);
+    EXPECT_GT(soft_gi::least_radiance(light), 1.7);
+  }
 }
 
 TEST(SoftGi, WithoutProxiesAllLightArrives) {
@@ -75,7 +96,7 @@ TEST(SoftGi, OneSphereHidesItsFormFactor) {
     }
 }
 
-// At low order small spheres do not see that they overlap.
+// At low order small spheres do not see that they overlap; the shares that count of them do.
 TEST(SoftGi, CoincidentSpheresShareTheirLight) {
   const GBuffer gbuffer = gbuffer_of({{{}, kUp}});
   struct Row {
@@ -83,42 +104,118 @@ TEST(SoftGi, CoincidentSpheresShareTheirLight) {
   };
   for (const Row& row :
        {Row{10, 0.94, 0.65}, Row{20, 0.81, 0.17}, Row{30, 0.67, 0.07}, Row{45, 0.58, 0.19}}) {
-    const auto indirect = [&](std::size_t count) {
+    const auto indirect = [&](std::size_t count, const SoftGiParams& params) {
       const std::vector<ProxySphere> same(count, sphere_at(kUp, row.degrees));
-      return shade(gbuffer, proxies_of(same), even_sky(), everywhere()).diffuse[0].x;
+      return shade(gbuffer, proxies_of(same), even_sky(), params).diffuse[0].x;
     };
-    EXPECT_NEAR(indirect(2) / (2 * indirect(1)), row.two, 0.01) << row.degrees;
-    EXPECT_NEAR(indirect(8) / (8 * indirect(1)), row.eight, 0.02) << row.degrees;
+    const SoftGiParams paper = as_published();
+    EXPECT_NEAR(indirect(2, paper) / (2 * indirect(1, paper)), row.two, 0.01) << row.degrees;
+    EXPECT_NEAR(indirect(8, paper) / (8 * indirect(1, paper)), row.eight, 0.02) << row.degrees;
+    for (const std::size_t count : {2u, 8u})
+      EXPECT_NEAR(indirect(count, everywhere()) / indirect(1, everywhere()), 1, 1e-3) << row.degrees;
   }
 }
 
-// White spheres under an even sky of radiance 1. The share of the sphere of directions that they cover
-// together, and so the mean of their radiance over it, is at most 1; the mean over all normals of what
-// receivers get is a little more, as each leaves out what is below it.
-TEST(SoftGi, OverlapsNeverGiveMoreThanTheSkyHolds) {
-  std::vector<Point> points;
-  for (int i = 0; i < 64; ++i) {
-    const double z = 1 - (2 * i + 1) / 64.0, r = std::sqrt(1 - z * z);
-    points.push_back({{0, 0.2, 0}, {r * std::cos(2.4 * i), r * std::sin(2.4 * i), z}});
+// Normals all about, at one place.
+std::vector<Point> normals_at(Vec3 position, int count) {
+  std::vector<Point> out;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z);
+    out.push_back({position, {r * std::cos(2.4 * i), r * std::sin(2.4 * i), z}});
   }
-  for (const int count : {1, 20, 1000})
-    for (const auto& emission : emissions()) {
-      auto spheres = random_spheres(count, 0.6);
-      for (ProxySphere& sphere : spheres) sphere.albedo = {1, 1, 1};
+  return out;
+}
+
+// Light of the basis' first function alone, but for what the map's midpoints leave of the others.
+scene::Environment finely_even_sky() {
+  const scene::Environment sky = sky_of([](Vec3) { return Vec3{1, 1, 1}; }, 256);
+  const sh::Vector light = soft_gi::project(sky)[0];
+  EXPECT_NEAR(light[0], std::sqrt(4 * pi), 1e-9);
+  for (int i = 1; i < sh::kCoefficients; ++i) EXPECT_NEAR(light[i], 0, 5e-5) << i;
+  return sky;
+}
+
+struct Setting {
+  int count;
+  double largest;  // radius
+};
+// The most that a receiver among white spheres gets from all sides under an even sky of radiance 1, as
+// radiance; and from the spheres, over what they hide of it times the most that one sends, under a coloured
+// sky.
+struct Most {
+  double all = 0, sent = 0;
+};
+Most most_light(const Setting& setting, std::uint32_t seed, const SoftGiParams& params) {
+  static const scene::Environment even_sky = finely_even_sky();
+  const GBuffer gbuffer = gbuffer_of(normals_at({0, 0.2, 0}, 32));
+  auto spheres = random_spheres(setting.count, setting.largest, seed);
+  for (ProxySphere& sphere : spheres) sphere.albedo = {1, 1, 1};
+  const Indirect even = shade(gbuffer, proxies_of(spheres), even_sky, params);
+  const Indirect coloured = shade(gbuffer, proxies_of(spheres), coloured_sky(), params);
+  const auto light = soft_gi::project(coloured_sky());
+  double brightest = 0;
+  for (const Point& point : normals_at({}, 1000))
+    brightest = std::max(brightest, soft_gi::irradiance(light, point.normal).x / pi);
+  Most out;
+  for (std::size_t i = 0; i < gbuffer.pixels.size(); ++i) {
+    const auto direct = static_cast<double>(even.direct[i].x), sent = static_cast<double>(even.diffuse[i].x);
+    EXPECT_TRUE(std::isfinite(direct) && std::isfinite(sent));
+    out.all = std::max(out.all, direct + sent);
+    out.sent = std::max(out.sent, static_cast<double>(coloured.diffuse[i].x) - (1 - direct) * brightest);
+  }
+  return out;
+}
+
+// Every combination of operator, exponential and overlaps once.
+TEST(SoftGi, OverlapsNeverGiveMoreThanTheSkyHolds) {
+  std::uint32_t n = 0;
+  for (const Setting& setting : {Setting{1, 0.6}, {4, 0.6}, {12, 0.8}, {40, 0.4}, {150, 0.3}, {400, 0.6}})
+    for (int turn = 0; turn < 2; ++turn, ++n) {
       SoftGiParams params = everywhere();
-      params.emission = emission.name;
-      Occlusion occlusion;
-      const Indirect image = shade(gbuffer_of(points), proxies_of(spheres), even_sky(), params, &occlusion);
-      double indirect = 0, all = 0;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        EXPECT_TRUE(std::isfinite(image.diffuse[i].x) && std::isfinite(image.direct[i].x));
-        EXPECT_GE(occlusion.vectors[i][0], -0.01 * std::sqrt(4 * pi)) << count << " spheres, normal " << i;
-        indirect += static_cast<double>(image.diffuse[i].x) / 64;
-        all += static_cast<double>(image.diffuse[i].x + image.direct[i].x) / 64;
-      }
-      EXPECT_LE(indirect, 1.2) << count << " spheres, " << emission.name;
-      EXPECT_LE(all, 1.2) << count << " spheres, " << emission.name;
+      params.exponential = exponentials()[n % 2].name;
+      params.emission = emissions()[n % 3].name;
+      params.overlap = overlaps()[(n + n / 6) % 2].name;
+      const Most most = most_light(setting, n, params);
+      EXPECT_LE(most.all, 1 + 1e-4) << setting.count << " spheres, " << n;
+      EXPECT_LE(most.sent, 2e-3) << setting.count << " spheres, " << n;
     }
+  EXPECT_GT(most_light({400, 0.6}, 1, as_published()).all, 1.1);
+}
+
+// The exposed parts of spheres that cluster cover together what the cluster does, from afar and in the mean
+// over all directions; close by each counts for more.
+TEST(SoftGi, ExposedPartsMakeUpTheCluster) {
+  std::vector<ProxySphere> spheres = random_spheres(6, 0.5);
+  for (ProxySphere& sphere : spheres) sphere.center *= 0.3;
+  const auto shares = soft_gi::exposures(spheres);
+  double together = 0;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    for (std::size_t level = 1; level < shares[i].size(); ++level)
+      EXPECT_LE(shares[i][level], shares[i][level - 1]);
+    together += static_cast<double>(shares[i].back()) * pi * spheres[i].radius * spheres[i].radius;
+  }
+  // Parallel rays of random directions through a square of 4 m that holds the cluster.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int hits = 0;
+  const int rays = 40000;
+  for (int n = 0; n < rays; ++n) {
+    const double z = uniform(random), r = std::sqrt(1 - z * z), azimuth = pi * uniform(random);
+    const Frame frame = frame_about({r * std::cos(azimuth), r * std::sin(azimuth), z});
+    const double x = 2 * uniform(random), y = 2 * uniform(random);
+    hits += std::ranges::any_of(spheres, [&](const ProxySphere& sphere) {
+      const Vec3 c = frame.to_local(sphere.center);
+      return std::hypot(c.x - x, c.y - y) < sphere.radius;
+    });
+  }
+  EXPECT_NEAR(together / (16.0 * hits / rays), 1, 0.03);
+  const auto alone = soft_gi::exposures({spheres[0]});
+  EXPECT_EQ(alone[0].front(), 1);
+  EXPECT_EQ(alone[0].back(), 1);
+  const auto within = soft_gi::exposures({{{}, 1, {}}, {{0.1, 0, 0}, 0.2, {}}, {{300, 0, 0}, 1, {}}});
+  EXPECT_EQ(within[0].back(), 1);
+  EXPECT_EQ(within[1].back(), 0);
+  EXPECT_EQ(within[2].back(), 1);
 }
 
 TEST(SoftGi, BlackProxiesSendNothing) {
@@ -134,14 +231,19 @@ TEST(SoftGi, TurnsWithTheWorld) {
   std::vector<Point> points = floor_points(4);
   std::vector<ProxySphere> spheres = random_spheres(12, 0.5);
   scene::Environment sky = coloured_sky();
-  const Indirect before = shade(gbuffer_of(points), proxies_of(spheres), sky, everywhere());
+  // Exposures are by rays of fixed directions.
+  const Indirect roughly = shade(gbuffer_of(points), proxies_of(spheres), sky, everywhere());
+  const Indirect before = shade(gbuffer_of(points), proxies_of(spheres), sky, as_published());
   for (Point& point : points) point = {turn.direction(point.position), turn.direction(point.normal)};
   for (ProxySphere& sphere : spheres) sphere.center = turn.direction(sphere.center);
   sky.rotation = turn;
-  const Indirect after = shade(gbuffer_of(points), proxies_of(spheres), sky, everywhere());
+  const Indirect roughly_after = shade(gbuffer_of(points), proxies_of(spheres), sky, everywhere());
+  const Indirect after = shade(gbuffer_of(points), proxies_of(spheres), sky, as_published());
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_LE(length(widen(before.direct[i]) - widen(after.direct[i])), 1e-4) << i;
     EXPECT_LE(length(widen(before.diffuse[i]) - widen(after.diffuse[i])), 1e-4) << i;
+    EXPECT_LE(length(widen(roughly.direct[i]) - widen(roughly_after.direct[i])), 5e-3) << i;
+    EXPECT_LE(length(widen(roughly.diffuse[i]) - widen(roughly_after.diffuse[i])), 5e-3) << i;
   }
 }
 
@@ -258,6 +360,9 @@ TEST(SoftGi, BadParametersAreErrors) {
   expect_error(ErrorCode::bad_value, {"upsample: \"guess\"", "plane"}, [&] { run({.upsample = "guess"}); });
   expect_error(ErrorCode::bad_value, {"exponential: \"guess\"", "hyb"},
                [&] { run({.exponential = "guess"}); });
+  expect_error(ErrorCode::bad_value, {"normalisation: \"guess\"", "cosine"},
+               [&] { run({.normalisation = "guess"}); });
+  expect_error(ErrorCode::bad_value, {"overlap: \"guess\"", "exposed"}, [&] { run({.overlap = "guess"}); });
   expect_error(ErrorCode::invalid_data, {"proxies: anchor"}, [&] { run({}, {1, 0, 0}); });
 }
 
