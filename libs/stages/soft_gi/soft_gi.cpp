@@ -109,7 +109,7 @@ const std::vector<SoftGiMethod>& emissions() {
   static const std::vector<SoftGiMethod> all = {
       {"point", "the radiance at the point nearest to the receiver, all over the proxy's disk",
        interop::PROXY_POINT},
-      {"averaged", "the mean radiance over the disk, by polynomials", interop::PROXY_AVERAGED},
+      {"averaged", "the mean radiance over the disk", interop::PROXY_AVERAGED},
       {"exact", "the radiance as it varies over the disk, by tables", interop::PROXY_EXACT},
   };
   return all;
