@@ -12,7 +12,7 @@ constexpr int kTile = static_cast<int>(interop::TILE), kSpacing = 4, kLast = kTi
 // Tiles whose light differs by more, in errors that the cut aims at, differ for other reasons.
 constexpr double kLargestDifference = 1.5;
 // Light reflected by narrower lobes changes faster than the ring's pixels follow.
-constexpr float kNarrowAlpha = 0.1F;
+constexpr float kSharpAlpha = 0.1F;
 static_assert(Cut::kRing == kTileSamples && Cut::kRing == 4 * static_cast<std::size_t>(kLast));
 
 // A place of the ring, in spacings: 0..kLast.
@@ -94,7 +94,7 @@ float mix(float a, float b, float t) {
 }
 
 bool is_sharp(const interop::Surface& s) {
-  return s.ndf != interop::NDF_NONE && s.alpha < kNarrowAlpha &&
+  return s.ndf != interop::NDF_NONE && s.alpha < kSharpAlpha &&
          std::max({s.specular.x, s.specular.y, s.specular.z}) > 0;
 }
 

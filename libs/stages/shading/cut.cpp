@@ -22,10 +22,6 @@ struct Image {
   explicit Image(std::size_t pixels) : diffuse(pixels), specular(pixels) {}
 };
 
-interop::vec3 scaled(interop::vec3 v, float scale) {
-  return {v.x * scale, v.y * scale, v.z * scale};
-}
-
 void shade_pixels(const GBuffer& gbuffer, const Cut& cut, std::span<const std::uint8_t> kinds,
                   std::span<const std::uint8_t> shaded, CutPass& pass, bool skip, Image& image,
                   Report& report) {
@@ -36,9 +32,9 @@ void shade_pixels(const GBuffer& gbuffer, const Cut& cut, std::span<const std::u
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const std::uint32_t pixel = receivers.pixels[i];
-      const float gain = gain_at(gbuffer, cut, pixel);
-      image.diffuse[pixel] = scaled(sums[i].diffuse, gain);
-      image.specular[pixel] = scaled(sums[i].specular, gain);
+      const auto gain = static_cast<double>(gain_at(gbuffer, cut, pixel));
+      image.diffuse[pixel] = to_float(gain * to_double(sums[i].diffuse));
+      image.specular[pixel] = to_float(gain * to_double(sums[i].specular));
     }
   }
 }

@@ -7,9 +7,9 @@
 #include <algorithm>
 
 #include "../synthetic_room.h"
+#include "../synthetic_tree.h"
 #include "cluster/cluster.h"
 #include "cluster/evaluate.h"
-#include "stages/lights/tree_lights.h"
 
 namespace vsgl::test {
 namespace {
@@ -167,14 +167,7 @@ Lanes sum(const std::vector<interop::Cluster>& clusters, const SampleReceivers& 
 
 // Light of real cuts, one of them far finer than its neighbours', relative to that of all leaves.
 TEST(Gains, BringCutsTogether) {
-  const Rsm rsm = room_rsm(32, 2);
-  const TexelTree tree = split_texels(lit_texels(rsm));
-  Lights lights;
-  lights.method = "tree";
-  lights.anchor = rsm.anchor;
-  lights.scene_radius = rsm.scene_radius;
-  lights.lights = tree_lights(rsm, tree);
-  lights.levels = tree.levels;
+  const Lights lights = tree_of(room_rsm(32, 2));
   const std::vector<interop::Cluster> clusters = pack_clusters(lights);
   const GBuffer gbuffer = plane();
   const TreeTraversal traversal(gbuffer, lights, clusters);

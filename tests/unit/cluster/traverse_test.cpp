@@ -9,9 +9,9 @@
 
 #include "../expect_error.h"
 #include "../synthetic_room.h"
+#include "../synthetic_tree.h"
 #include "cluster/cluster.h"
 #include "cluster/evaluate.h"
-#include "stages/lights/tree_lights.h"
 
 namespace vsgl::test {
 namespace {
@@ -21,19 +21,9 @@ using interop::Cluster;
 // A room of two lamps, a glossy floor and a glossy sphere, cut for an image of 5 x 3 tiles, partly cut off.
 struct Room {
   GBuffer gbuffer = room_gbuffer(72, 40);
-  Lights lights;
-  std::vector<Cluster> clusters;
+  Lights lights = tree_of(room_rsm(32, 2));
+  std::vector<Cluster> clusters = pack_clusters(lights);
 
-  Room() {
-    const Rsm rsm = room_rsm(32, 2);
-    const TexelTree tree = split_texels(lit_texels(rsm));
-    lights.method = "tree";
-    lights.anchor = rsm.anchor;
-    lights.scene_radius = rsm.scene_radius;
-    lights.lights = tree_lights(rsm, tree);
-    lights.levels = tree.levels;
-    clusters = pack_clusters(lights);
-  }
   TreeTraversal traversal() const { return {gbuffer, lights, clusters}; }
 };
 const Room& room() {

@@ -5,25 +5,15 @@
 
 #include "../expect_error.h"
 #include "../synthetic_room.h"
+#include "../synthetic_tree.h"
 #include "cluster/cluster.h"
 #include "cluster/traverse.h"
-#include "stages/lights/tree_lights.h"
 
 namespace vsgl::test {
 namespace {
 
 const Lights& lights() {
-  static const Lights instance = [] {
-    const Rsm rsm = room_rsm(32, 2);
-    const TexelTree tree = split_texels(lit_texels(rsm));
-    Lights out;
-    out.method = "tree";
-    out.anchor = rsm.anchor;
-    out.scene_radius = rsm.scene_radius;
-    out.lights = tree_lights(rsm, tree);
-    out.levels = tree.levels;
-    return out;
-  }();
+  static const Lights instance = tree_of(room_rsm(32, 2));
   return instance;
 }
 

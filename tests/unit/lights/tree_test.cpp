@@ -6,17 +6,13 @@
 
 #include "../expect_error.h"
 #include "../synthetic_room.h"
-#include "stages/lights/lights.h"
+#include "../synthetic_tree.h"
 
 namespace vsgl {
 namespace {
 
 using interop::Light;
-
-Lights tree_of(const Rsm& rsm, LightsParams params = {}) {
-  Report report;
-  return generate_lights(rsm, nullptr, params, nullptr, report);
-}
+using test::tree_of;
 
 // The room under a spot and a directional light whose texels have roughness, NDF and shading normal of their
 // own.
