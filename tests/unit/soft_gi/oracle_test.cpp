@@ -49,6 +49,16 @@ Vec3 exact_irradiance(const ColourVector& lit, Vec3 center, double radius, Vec3 
   return {sh::dot(radiance[0], turned), sh::dot(radiance[1], turned), sh::dot(radiance[2], turned)};
 }
 
+// Irradiance of order 3, by the normal.
+ColourVector light_of_proxies(const ColourVector& light) {
+  ColourVector lit;
+  for (int c = 0; c < 3; ++c) {
+    lit[c] = sh::convolve(light[c], sh::clamped_cosine());
+    for (int i = 9; i < 16; ++i) lit[c][i] = 0;
+  }
+  return lit;
+}
+
 // Of a cap of radiance 1.
 double cap_irradiance(double below, Vec3 d, Vec3 normal) {
   return std::max(sh::dot(sh::turn(sh::cap(below), d), sh::turn(sh::clamped_cosine(), normal)), 0.0);
@@ -76,11 +86,7 @@ struct Shade {
 Shade shade_in_double(const Point& at, const std::vector<ProxySphere>& spheres,
                       const std::vector<soft_gi::Exposure>& shares, const ColourVector& light,
                       const std::string& emission, bool published) {
-  ColourVector lit;
-  for (int c = 0; c < 3; ++c) {
-    lit[c] = sh::convolve(light[c], sh::clamped_cosine());
-    for (int i = 9; i < 16; ++i) lit[c][i] = 0;
-  }
+  const ColourVector lit = light_of_proxies(light);
   sh::Vector log{};
   Vec3 indirect;
   double covering = 0;
@@ -146,6 +152,29 @@ TEST(SoftGiOracle, DeviceFollowsTheFormulas) {
         }
       }
   }
+}
+
+// Of one sphere all but its radiance is the same by either operator, so that their ratio has no table's
+// error.
+TEST(SoftGiOracle, AveragedIsTheMeanOverTheDisk) {
+  const auto sky = coloured_sky();
+  const ColourVector lit = light_of_proxies(soft_gi::project(sky));
+  for (const Vec3 d : {Vec3{0, 0, 1}, normalise(Vec3{1, -2, 0.5}), normalise(Vec3{-1, 0.3, -0.6})})
+    for (const double sine : {0.02, 0.3, 0.7, 0.95}) {
+      const GBuffer gbuffer = gbuffer_of({{{}, d}});
+      const Proxies proxies = proxies_of({{d, sine, {1, 1, 1}}});
+      const auto light_by = [&](const char* emission) {
+        SoftGiParams params = everywhere();
+        params.emission = emission;
+        return widen(shade(gbuffer, proxies, sky, params).diffuse[0]);
+      };
+      const Vec3 found = light_by("averaged"), point = light_by("point");
+      const Vec3 expected = disk_irradiance(lit, d, sine, d, true),
+                 at_point = disk_irradiance(lit, d, sine, d, false);
+      EXPECT_NEAR(found.x / point.x, expected.x / at_point.x, 2e-5) << sine;
+      EXPECT_NEAR(found.y / point.y, expected.y / at_point.y, 2e-5) << sine;
+      EXPECT_NEAR(found.z / point.z, expected.z / at_point.z, 2e-5) << sine;
+    }
 }
 
 }  // namespace
