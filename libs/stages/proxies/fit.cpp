@@ -27,6 +27,9 @@ void check(const scene::Scene& scene, const ProxyParams& params) {
     throw Error(ErrorCode::out_of_range, "count: " + std::to_string(params.count) + " is not 1..256");
   if (!(params.cover >= 0.1 && params.cover <= 1))
     throw Error(ErrorCode::out_of_range, "cover: " + std::to_string(params.cover) + " is not 0.1..1");
+  if (!(params.overlap_cost >= 0 && params.overlap_cost <= 1))
+    throw Error(ErrorCode::out_of_range,
+                "overlap_cost: " + std::to_string(params.overlap_cost) + " is not 0..1");
   for (const std::string& name : params.receivers)
     if (std::ranges::find(scene.instances, name, &scene::Instance::name) == scene.instances.end())
       throw Error(ErrorCode::bad_value, "receivers: the scene has no node \"" + name + "\"");
@@ -86,7 +89,8 @@ class Fitter {
   const SphereSet& set_of(const scene::Mesh& mesh) {
     const auto [entry, fresh] = sets_.try_emplace(&mesh);
     if (fresh)
-      entry->second = fit_spheres(triangles_of(mesh.vertices, mesh.indices), params_.count, params_.cover);
+      entry->second = fit_spheres(triangles_of(mesh.vertices, mesh.indices), params_.count, params_.cover,
+                                  params_.overlap_cost);
     return entry->second;
   }
 

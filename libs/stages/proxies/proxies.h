@@ -12,9 +12,10 @@
 namespace vsgl {
 
 struct ProxyParams {
-  int count = 16;                      // spheres of a mesh at most, 1..256
-  double cover = 0.97;                 // share of a mesh's volume at which no more are added, 0.1..1
-  std::vector<std::string> receivers{};  // names of instances that only receive light, besides large flat ones
+  int count = 16;                        // spheres of a mesh at most, 1..256
+  double cover = 0.97;                   // share of a mesh's volume at which no more are added, 0.1..1
+  double overlap_cost = 0.5;             // of volume that spheres hold twice, over that of misfit, 0..1
+  std::vector<std::string> receivers{};  // instances that only receive light, besides large flat ones
 };
 
 // Spheres of all meshes of a frame: fitted once to each mesh in its own coordinates, so that they are the

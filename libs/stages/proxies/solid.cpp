@@ -1,23 +1,24 @@
-// Sphere sets of solids: the inside as voxels, a greedy choice of large balls, then one more sphere at a time
-// where most is missed; in between refinement as Lloyd's. After [Wang 2006], which minimises the volume
-// outside of spheres that bound the mesh. Deviation: spheres of the mesh's volume, which throw shadows of
-// about the right size; bounding ones are fat.
+// Sphere sets of solids: the inside as voxels, a greedy choice of large balls, refinement as Lloyd's, then
+// one more sphere at a time where most is missed, each time moved and resized for the least misfit. After
+// [Wang 2006], which minimises the volume outside of spheres that bound the mesh. Deviation: spheres of the
+// mesh's volume, which throw shadows of about the right size; bounding ones are fat.
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "stages/proxies/polish.h"
 #include "stages/proxies/sheet.h"
 #include "stages/proxies/voxels.h"
 
 namespace vsgl::proxies {
 namespace {
 
-constexpr int kCells = 48;             // voxels along the longest side
+constexpr int kCells = 48;             // voxels along the side of a cube of the box's volume
 constexpr double kSheetShare = 0.01;   // of the box inside, below which a mesh is no solid
 constexpr double kSlack = 0.02;        // of the mesh's diagonal, by which candidates reach out of it
 constexpr double kCandidateGap = 0.5;  // least distance of candidates, in radii of the larger
-constexpr int kFirstRounds = 10, kFurtherRounds = 4, kBisections = 30;
+constexpr int kLloydRounds = 10, kBisections = 20;
 
 using Spheres = std::vector<Sphere>;
 
@@ -129,7 +130,7 @@ Spheres scaled(Spheres spheres, double factor) {
 }
 
 // By one factor for all radii, so that the union has the mesh's volume: then its mean projected area, and
-// with it the shadow in even light, is about right. What reaches out of the voxels' box is not counted.
+// with it the shadow in even light, is about right.
 Spheres fit_volume(const Voxels& voxels, const Spheres& spheres) {
   const std::size_t wanted = voxels.inside_count();
   double low = 0.25, high = 4;
@@ -141,43 +142,43 @@ Spheres fit_volume(const Voxels& voxels, const Spheres& spheres) {
   return scaled(spheres, high);
 }
 
-Spheres settle(const Voxels& voxels, Spheres spheres, int rounds) {
-  for (int round = 0; round < rounds; ++round) refine(voxels, spheres);
+Spheres settled(const Voxels& voxels, double overlap_cost, Spheres spheres) {
+  polish(voxels, overlap_cost, spheres);
   return fit_volume(voxels, spheres);
 }
 
-// The voxel inside that lies furthest out of the spheres, as a sphere; the first of several.
+// About the voxel inside that lies furthest out of the spheres, the first of several, a sphere that touches
+// them.
 Sphere most_missed(const Voxels& voxels, const Spheres& spheres) {
-  Sphere out{{}, voxels.side};
-  double furthest = 0;
+  Sphere out;
   for (int z = 0; z < voxels.nz; ++z)
     for (int y = 0; y < voxels.ny; ++y)
       for (int x = 0; x < voxels.nx; ++x) {
         if (voxels.inside[voxels.index(x, y, z)] == 0) continue;
         const double distance = signed_distance(spheres, voxels.center(x, y, z));
-        if (distance <= furthest) continue;
-        furthest = distance;
-        out.center = voxels.center(x, y, z);
+        if (distance > out.radius) out = {voxels.center(x, y, z), distance};
       }
   return out;
 }
 
 }  // namespace
 
-SphereSet fit_spheres(const Triangles& triangles, int count, double cover) {
+SphereSet fit_spheres(const Triangles& triangles, int count, double cover, double overlap_cost) {
   SphereSet out;
   const auto [low, high] = bounds(triangles);
   if (surface_points(triangles, 1).empty()) return out;
   const Voxels voxels = voxelise(triangles, kCells);
   const std::size_t inside = voxels.inside_count();
-  if (static_cast<double>(inside) < kSheetShare * static_cast<double>(voxels.size())) {
+  if (static_cast<double>(inside) < kSheetShare * static_cast<double>(voxels.of_box)) {
     out.sheet = true;
     out.spheres = fit_sheet(triangles, count);
     return out;
   }
   const auto volume = static_cast<double>(inside);
   const double slack = kSlack * length(high - low);
-  out.spheres = settle(voxels, choose(voxels, candidates(voxels, slack), count, cover), kFirstRounds);
+  out.spheres = choose(voxels, candidates(voxels, slack), count, cover);
+  for (int round = 0; round < kLloydRounds; ++round) refine(voxels, out.spheres);
+  out.spheres = settled(voxels, overlap_cost, out.spheres);
   while (true) {
     const Union size = measure(voxels, out.spheres);
     out.volume_outside = static_cast<double>(size.outside) / volume;
@@ -185,8 +186,9 @@ SphereSet fit_spheres(const Triangles& triangles, int count, double cover) {
     if (static_cast<int>(out.spheres.size()) >= count || out.volume_missed <= 1 - cover) return out;
     Spheres more = out.spheres;
     more.push_back(most_missed(voxels, more));
-    out.spheres = settle(voxels, more, kFurtherRounds);
-    if (out.spheres.size() < more.size()) return out;  // no room for another
+    more = settled(voxels, overlap_cost, more);
+    if (more.size() <= out.spheres.size()) return out;  // no room for another
+    out.spheres = more;
   }
 }
 

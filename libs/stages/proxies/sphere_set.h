@@ -45,7 +45,7 @@ struct SphereSet {
   double volume_outside = 0, volume_missed = 0;  // over the mesh's volume
 };
 // At most `count` spheres; none for a mesh without area.
-SphereSet fit_spheres(const Triangles& triangles, int count, double cover);
+SphereSet fit_spheres(const Triangles& triangles, int count, double cover, double overlap_cost);
 
 // Distance of a point to the surface of the spheres' union: negative inside.
 double signed_distance(const std::vector<Sphere>& spheres, Vec3 point);

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace vsgl::proxies {
 namespace {
+
+constexpr int kLongest = 256;  // voxels along the longest side at most
 
 // Where a line along an axis crosses the mesh, and which way the mesh faces there.
 struct Crossing {
@@ -121,10 +124,17 @@ std::size_t Voxels::inside_count() const {
 Voxels voxelise(const Triangles& triangles, int cells) {
   const auto [low, high] = bounds(triangles);
   const Vec3 extent = high - low;
+  const double longest = std::max({extent.x, extent.y, extent.z});
   Voxels out;
-  out.side = std::max({extent.x, extent.y, extent.z}) / cells;
-  const auto count = [&](double length) { return static_cast<int>(std::ceil(length / out.side)) + 2; };
+  out.side = std::max(std::cbrt(extent.x * extent.y * extent.z) / cells, longest / kLongest);
+  const auto count = [&](double length) {
+    return std::max(static_cast<int>(std::ceil(length / out.side)), 1);
+  };
   out.nx = count(extent.x), out.ny = count(extent.y), out.nz = count(extent.z);
+  out.of_box =
+      static_cast<std::size_t>(out.nx) * static_cast<std::size_t>(out.ny) * static_cast<std::size_t>(out.nz);
+  const double radius = std::cbrt(static_cast<double>(out.of_box) * 3 / (4 * std::numbers::pi));
+  for (int* length : {&out.nx, &out.ny, &out.nz}) *length += 2 * (1 + static_cast<int>(std::ceil(radius)));
   out.low = (low + high) / 2 - out.side / 2 * Vec3{1.0 * out.nx, 1.0 * out.ny, 1.0 * out.nz};
   out.inside.resize(static_cast<std::size_t>(out.nx) * static_cast<std::size_t>(out.ny) *
                     static_cast<std::size_t>(out.nz));
