@@ -266,7 +266,62 @@ VSGL_LANE bool is_point(const Cluster& c, const SampleReceivers& r) {
   return nearest > 0;
 }
 
+// ---- Glints
+
+// GGX's density times pi, in its largest peak's place by no more than `turn`: h, the sum of the directions to
+// both sides (squared length hh, normal component hn, tangential one t), moves by as much as either does.
+VSGL_LANE float turned_density(float alpha2, float hh, float hn, float t, float turn) {
+  const float near = most(t - turn, 0), q = most(near * near + alpha2 * hn * hn, alpha2 * hh);
+  return alpha2 * hh * hh / (q * q);
+}
+// Share of a footprint that directions within a lobe cover: of solid angle 2 pi alpha^2 |h|, in 2 pi /
+// sharpness.
+VSGL_LANE float covered_share(float alpha2, float hh, float sharpness) {
+  return least(alpha2 * std::sqrt(hh) * sharpness, 1);
+}
+
+VSGL_LANE float glint_at(const Cluster& c, float deviation, float reach, float least_share,
+                         const Receiver& r) {
+  const V3 v = v3(c.position) - r.position;
+  const float d2 = most(dot(v, v), 1e-24f), inverse_d = 1 / std::sqrt(d2),
+              sharpness = d2 * c.inverse_variance;
+  const V3 u = inverse_d * v, n = v3(c.shading_normal);
+  const float turn = least((2 * deviation + reach) * inverse_d, 1), alpha2 = c.masking_alpha2;
+
+  const V3 h = v3(c.incident) - u;
+  const float hh = most(dot(h, h), 1e-8f), hn = dot(h, n);
+  const V3 t = h - hn * n;
+  const float leaving = clamp(turn - dot(u, v3(c.normal)), 0, 1), z = clamp(turn - dot(u, n), 1e-4f, 1);
+  const float emission_masking = (2 * c.incident_masking - 1) * z + ggx_slope(alpha2, z);
+  const float peak = turned_density(alpha2, hh, hn, std::sqrt(dot(t, t)), turn);
+  const float emitted = 2 * leaving * peak / emission_masking;
+
+  const float arriving = dot(u, r.normal), cosine = clamp(arriving + turn, 0, 1);
+  const V3 g = {r.sin_view + dot(u, r.tangent), dot(u, r.bitangent), r.cos_view + arriving};
+  const float gg = most(dot(g, g), 1e-8f);
+  const float masking = r.slope_view * cosine + ggx_slope(r.alpha2, cosine) * r.cos_view;
+  const float reflected = cosine / (2 * kPi * masking) *
+                          turned_density(r.alpha2, gg, g.z, std::sqrt(g.x * g.x + g.y * g.y), turn);
+
+  const float emitting = most(covered_share(alpha2, hh, sharpness), least_share);
+  const float meeting = least(emitting, most(covered_share(r.alpha2, gg, sharpness), least_share));
+  return least(inverse_d * inverse_d, c.inverse_variance) * emitted *
+         (emitting * cosine * dot(r.diffuse, v3(c.specular)) +
+          meeting * reflected * dot(r.specular, v3(c.specular)));
+}
+
 }  // namespace
+
+VSGL_VECTOR_CLONES
+void evaluate_glint(const Cluster& cluster, const SampleReceivers& receivers, const Lanes& reach,
+                    float least_share, Lanes& light) {
+  const Cluster c = cluster;
+  const float deviation = 1 / std::sqrt(c.inverse_variance);
+  const float scale = c.ndf == interop::NDF_GGX ? 1 : 1 / kPi;  // c.specular of GGX is over pi
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < kTileSamples; ++i)
+    light.lane[i] = scale * glint_at(c, deviation, reach.lane[i], least_share, at(receivers, i));
+}
 
 VSGL_VECTOR_CLONES
 void evaluate(const Cluster& cluster, const SampleReceivers& receivers, ClusterLight& light) {

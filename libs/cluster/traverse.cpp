@@ -27,6 +27,11 @@ constexpr float kStep = 0.7F;
 constexpr double kBias = 4, kNoise = 1.4;
 // Pixels between the samples may receive so many eps from a cluster that they are near to.
 constexpr float kNearShare = 8;
+// Lobes of at most this roughness make glints; they are looked for within this part of a cell's radius.
+constexpr float kGlintAlpha = 0.1F, kGlintReach = 0.25F;
+// What siblings differ by tells the less of what lies further down the less it is: below this error the
+// estimate is multiplied by the root of how much smaller the error is, at most of so much.
+constexpr double kCautionBelow = 0.05, kMostCaution = 10;
 // The mean is taken over the samples of at most so many tiles.
 constexpr int kMeanTiles = 256;
 
@@ -102,6 +107,8 @@ class Choice {
         visibility_(visibility),
         eps_(criterion.threshold) {
     out_.samples = static_cast<std::size_t>(std::popcount(samples.present));
+    for (const Cell& cell : cells)
+      glint_reach_[cell.sample] = kGlintReach * static_cast<float>(criterion.caution) * cell.radius;
   }
 
   // `start`: nodes that are looked at in any case.
@@ -162,6 +169,7 @@ class Choice {
       node.threshold = std::max(std::min(node.share, difference), 0.25F * hidden);
       if (node.threshold <= eps_)
         node.threshold = std::max(node.threshold, brightest_near(clusters_[node.index]) / kNearShare);
+      if (node.threshold <= eps_) node.threshold = std::max(node.threshold, hidden_glint(node) / kNearShare);
     }
     (node.threshold <= eps_ ? accepted_ : pending_).push_back(node);
   }
@@ -183,6 +191,22 @@ class Choice {
         brightest = std::max({brightest, light.value[k], light.bound[k]});
       most = std::max(most, brightest * inverse_light_[cell.sample]);
     }
+    return most;
+  }
+
+  // The largest share that the cluster's glints may have in a sample's light, where its own value hides them.
+  float hidden_glint(const Node& node) {
+    const Cluster& cluster = clusters_[node.index];
+    if (cluster.ndf == interop::NDF_NONE || cluster.masking_alpha2 > kGlintAlpha * kGlintAlpha) return 0;
+    // A single texel among the children may hold all that shines.
+    const bool texels = std::ranges::any_of(std::span(clusters_).subspan(cluster.children, 4),
+                                            [](const Cluster& child) { return child.children == 0; });
+    Lanes light;
+    evaluate_glint(cluster, receivers_, glint_reach_, texels ? 1 : 0, light);
+    out_.evaluations += out_.samples;
+    float most = 0;
+    for (std::size_t k = 0; k < kTileSamples; ++k)
+      if (node.value[k] < 0.25F * light[k]) most = std::max(most, light[k] * inverse_light_[k]);
     return most;
   }
 
@@ -257,7 +281,7 @@ class Choice {
       const double together = kBias * static_cast<double>(sum[k]);
       total += together * together + kNoise * kNoise * static_cast<double>(squares[k]);
     }
-    return std::sqrt(total / static_cast<double>(out_.samples));
+    return criterion_.caution * std::sqrt(total / static_cast<double>(out_.samples));
   }
 
   const std::vector<Cluster>& clusters_;
@@ -268,6 +292,7 @@ class Choice {
   const NodeVisibility& visibility_;
   float eps_;
   Lanes inverse_light_;  // 0 where there is no sample
+  Lanes glint_reach_;    // m
   std::vector<Node> pending_, accepted_;
   std::vector<Group> groups_;
   TileCut out_;
@@ -332,7 +357,8 @@ TreeTraversal::TreeTraversal(const GBuffer& gbuffer, const Lights& lights,
 CutCriterion TreeTraversal::criterion(double error) const {
   CutCriterion out;
   out.error = error;
-  out.threshold = static_cast<float>(kFirstThreshold * error);
+  out.caution = std::sqrt(std::clamp(kCautionBelow / error, 1.0, kMostCaution));
+  out.threshold = static_cast<float>(kFirstThreshold * error / out.caution);
   out.start_level = sharp_ ? 4 : 3;
   out.floor = static_cast<float>(kFloorShare * mean_light(start_nodes(out.start_level)));
   return out;

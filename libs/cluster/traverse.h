@@ -30,6 +30,7 @@ TileSamples block_pixels(const GBuffer& gbuffer, int left, int top);
 struct CutCriterion {
   // Of the tile, estimated: eps is lowered until it is no larger.
   double error = std::numeric_limits<double>::infinity();
+  double caution = 1;             // multiplies the estimate
   float threshold = 0.003F;       // eps at first: accepted values and differences over the sample's light
   float floor = 0;                // radiance added to the sample's light (2% of the image's mean), W/(m^2 sr)
   std::uint32_t start_level = 3;  // of the tree: its nodes, and the leaves above, are all evaluated

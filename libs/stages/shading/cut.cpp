@@ -49,9 +49,9 @@ std::vector<std::uint8_t> all_seen(std::span<const std::uint8_t> kinds) {
 // the error that the cut aims at.
 void shade_at_half(const GBuffer& gbuffer, const Cut& cut, std::span<const std::uint8_t> kinds, CutPass& pass,
                    bool skip, Image& image, Report& report) {
-  const HalfResolution half(gbuffer, kinds);
+  const HalfResolution half(gbuffer, kinds, cut.error);
   shade_pixels(gbuffer, cut, kinds, half.shaded(), pass, skip, image, report);
-  const std::vector<std::uint8_t> rejected = half.interpolate(image.diffuse, cut.error);
+  const std::vector<std::uint8_t> rejected = half.interpolate(image.diffuse);
   shade_pixels(gbuffer, cut, kinds, rejected, pass, skip, image, report);
   report.count("diffuse_exact_pixels", half.exact_pixels() + static_cast<std::size_t>(std::count(
                                                                  rejected.begin(), rejected.end(), 1)));

@@ -17,7 +17,7 @@ using interop::Surface;
 constexpr double kLargestRise = 0.1;
 constexpr double kSmallestAgreement = 0.9;
 // Irradiance is nearly linear in the normal, so the pixel's own may differ by this much from the mean of its
-// samples'.
+// samples' where the image's error may be as much or more; below, it falls with the error.
 constexpr double kLargestBend = 0.05;
 // Of irradiance around an interpolated pixel, where the image's error may be kCoarse or more; below, its
 // square falls with the error, as interpolation errs by the square of the contrast.
@@ -46,8 +46,10 @@ std::vector<std::uint8_t> pixel_kinds(const GBuffer& gbuffer) {
   return kinds;
 }
 
-HalfResolution::HalfResolution(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds)
+HalfResolution::HalfResolution(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds, double error)
     : gbuffer_(gbuffer),
+      largest_bend_(std::min(kLargestBend, error)),
+      largest_contrast_(kLargestContrast * std::sqrt(std::min(error / kCoarse, 1.0))),
       columns_((gbuffer.width + 1) / 2),
       rows_((gbuffer.height + 1) / 2),
       samples_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
@@ -111,7 +113,7 @@ bool HalfResolution::fits(std::uint32_t pixel, const Stencil& stencil) const {
     if (!on_surface(s, sample)) return false;
     bend += stencil.weight[k] * to_double(sample.shading_normal);
   }
-  return dot(bend, bend) <= kLargestBend * kLargestBend;
+  return dot(bend, bend) <= largest_bend_ * largest_bend_;
 }
 
 // Of the samples' luminances in the quads that surround the pixel and their neighbours (light may peak
@@ -130,9 +132,7 @@ double HalfResolution::contrast_around(std::uint32_t pixel, std::span<const inte
   return most > least ? most / least - 1 : 0;
 }
 
-std::vector<std::uint8_t> HalfResolution::interpolate(std::span<interop::vec3> irradiance,
-                                                      double error) const {
-  const double largest_contrast = kLargestContrast * std::sqrt(std::min(error / kCoarse, 1.0));
+std::vector<std::uint8_t> HalfResolution::interpolate(std::span<interop::vec3> irradiance) const {
   std::vector<std::uint8_t> rejected(irradiance.size());
 #pragma omp parallel for schedule(static)
   for (std::uint32_t i = 0; i < irradiance.size(); ++i) {
@@ -143,7 +143,7 @@ std::vector<std::uint8_t> HalfResolution::interpolate(std::span<interop::vec3> i
     for (int k = 0; k < stencil.count; ++k)
       sum += stencil.weight[k] * to_double(irradiance[stencil.sample[k]]);
     irradiance[i] = to_float(sum);
-    rejected[i] = contrast_around(i, irradiance) > largest_contrast;
+    rejected[i] = contrast_around(i, irradiance) > largest_contrast_;
   }
   return rejected;
 }

@@ -21,7 +21,8 @@ std::vector<std::uint8_t> pixel_kinds(const GBuffer& gbuffer);
 // are samples and specular pixels.
 class HalfResolution {
  public:
-  HalfResolution(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds);
+  // error: that the image may have, relative.
+  HalfResolution(const GBuffer& gbuffer, std::span<const std::uint8_t> kinds, double error);
 
   // 1: the pixel is shaded by itself.
   const std::vector<std::uint8_t>& shaded() const { return shaded_; }
@@ -29,8 +30,8 @@ class HalfResolution {
   std::size_t exact_pixels() const { return exact_; }
 
   // Sets the irradiance of all pixels that are interpolated, but for those whose samples differ by more than
-  // an image of that relative error allows: these are marked in the result (1), to be shaded after all.
-  std::vector<std::uint8_t> interpolate(std::span<interop::vec3> irradiance, double error) const;
+  // the error allows: these are marked in the result (1), to be shaded after all.
+  std::vector<std::uint8_t> interpolate(std::span<interop::vec3> irradiance) const;
 
  private:
   // Samples that surround a pixel, with their bilinear weights.
@@ -47,6 +48,7 @@ class HalfResolution {
   bool fits(std::uint32_t pixel, const Stencil& stencil) const;
 
   const GBuffer& gbuffer_;
+  double largest_bend_, largest_contrast_;
   int columns_, rows_;                  // of quads
   std::vector<std::uint32_t> samples_;  // pixel of each quad, kNone: it sees nothing
   std::vector<std::uint8_t> shaded_, interpolated_;

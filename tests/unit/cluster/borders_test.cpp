@@ -173,7 +173,7 @@ TEST(Gains, BringCutsTogether) {
   const TreeTraversal traversal(gbuffer, lights, clusters);
   std::vector<TileCut> tiles;
   for (int tile = 0; tile < 6; ++tile) {
-    const CutCriterion criterion = traversal.criterion(tile % 2 == 0 ? 0.3 : 0.02);
+    const CutCriterion criterion = traversal.criterion(tile % 2 == 0 ? 0.4 : 0.05);
     tiles.push_back(traversal.cut(tile_samples(gbuffer, tile), criterion, {}));
     tiles.back().ring = traversal.ring(tile, tiles.back(), {}, 0);
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <span>
 
 #include "../synthetic_room.h"
 #include "cluster/cluster.h"
@@ -148,6 +149,101 @@ INSTANTIATE_TEST_SUITE_P(Ndfs, Evaluation, testing::ValuesIn(cases()), [](const 
   return "emission" + std::to_string(test.param.emission) + "reflection" +
          std::to_string(test.param.reflection);
 });
+
+// ---- Glints: of patches of mirror-like texels, one of which a mirror-like floor shows to the camera.
+
+constexpr int kPatchTexels = 64;
+
+// 8 x 8 texels of a patch of `size` in the light's plane, with its power in all; the first is in the corner.
+std::vector<interop::Light> texels_of(const interop::Light& light, double size) {
+  const Vec3 n = to_double(light.normal), s = normalise(cross(n, {0, 0, 1})), t = cross(n, s);
+  std::vector<interop::Light> out;
+  for (int i = 0; i < kPatchTexels; ++i) {
+    interop::Light texel = light;
+    const double x = (i % 8 - 3.5) / 8, y = (i / 8 - 3.5) / 8;
+    texel.position = to_float(to_double(light.position) + size * (x * s + y * t));
+    texel.variance = static_cast<float>(size * size / (12 * kPatchTexels));
+    texel.power_specular = to_float(to_double(light.power_specular) / kPatchTexels);
+    out.push_back(texel);
+  }
+  return out;
+}
+
+// Turns the source and a pixel so that light which leaves `at` is reflected to the pixel and on to the
+// camera.
+void let_shine(interop::Light& light, interop::Surface& pixel, Vec3 camera, Vec3 at) {
+  const Vec3 away = normalise(to_double(pixel.position) - at), n = to_double(light.normal);
+  light.incident = to_float(2 * dot(n, away) * n - away);
+  pixel.shading_normal = to_float(normalise(normalise(camera - to_double(pixel.position)) - away));
+}
+
+interop::Light mirror_patch(double size) {
+  interop::Light light = random_light(interop::NDF_GGX, size / std::sqrt(12), 0).lights.front();
+  light.alpha = 0.03f;
+  light.lobe_variance = light.shading_deficit = 0;
+  light.shading_normal = light.normal;
+  light.power_diffuse = {};
+  return light;
+}
+
+// Where the texels send four times what their mean does, the glint tells.
+TEST(Glint, TellsOfWhatTheMeanHides) {
+  constexpr std::size_t kTrials = 400;
+  std::vector<GBuffer> floors;
+  Lights lights;  // of each trial the patch and its texels
+  for (std::size_t trial = 0; trial < kTrials; ++trial) {
+    const double size = log_uniform(0.02, 0.5);
+    interop::Light light = mirror_patch(size);
+    GBuffer& floor = floors.emplace_back(random_floor(interop::NDF_GGX));
+    for (interop::Surface& s : floor.pixels) s.alpha = 0.03f;
+    let_shine(light, floor.pixels.front(), floor.camera, to_double(texels_of(light, size).front().position));
+    lights.lights.push_back(light);
+    std::ranges::copy(texels_of(light, size), std::back_inserter(lights.lights));
+  }
+  const std::vector<Cluster> clusters = pack_clusters(lights);
+  int hidden = 0, told = 0;
+  for (std::size_t trial = 0; trial < kTrials; ++trial) {
+    const SampleReceivers receivers = sample_receivers(floors[trial], all_pixels());
+    const std::span own = std::span(clusters).subspan(trial * (1 + kPatchTexels), 1 + kPatchTexels);
+    ClusterLight mean, texel;
+    evaluate(own.front(), receivers, mean);
+    float sum = 0;
+    for (const Cluster& c : own.subspan(1)) {
+      evaluate(c, receivers, texel);
+      sum += texel.value[0];
+    }
+    Lanes glint;
+    evaluate_glint(own.front(), receivers, {}, 0, glint);
+    for (std::size_t i = 0; i < kTileSamples; ++i) ASSERT_GE(glint[i], 0);
+    if (sum < 4 * mean.value[0]) continue;
+    ++hidden;
+    told += glint[0] > 0.25F * sum;
+  }
+  EXPECT_GT(hidden, 100);
+  EXPECT_GE(told, hidden * 9 / 10) << "of " << hidden;
+}
+
+// Nor does it see any where directions to the cluster stay out of the lobes.
+TEST(Glint, NeedsLobesThatTheClusterReaches) {
+  const SampleReceivers receivers = sample_receivers(random_floor(interop::NDF_GGX), all_pixels());
+  Lights patch;
+  patch.lights = {mirror_patch(0.04)};
+  interop::Light& light = patch.lights.front();
+  light.shading_normal = light.normal = {0, -1, 0};
+  light.incident = {0, -1, 0};
+  light.position = {0, 1, 0};
+  const Cluster straight_down = pack_clusters(patch).front();
+  light.incident = {1, 0, 0};
+  const Cluster grazing = pack_clusters(patch).front();
+  Lanes glint, away, far_reach, reach;
+  reach.lane.fill(0.5F);
+  evaluate_glint(straight_down, receivers, {}, 1, glint);
+  evaluate_glint(grazing, receivers, {}, 1, away);
+  evaluate_glint(grazing, receivers, reach, 1, far_reach);
+  const auto most = [](const Lanes& lanes) { return *std::ranges::max_element(lanes.lane); };
+  EXPECT_GT(most(glint), 20 * most(away));
+  EXPECT_GT(most(far_reach), 2 * most(away));
+}
 
 }  // namespace
 }  // namespace vsgl::test

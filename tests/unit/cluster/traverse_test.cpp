@@ -173,6 +173,20 @@ TEST(Traversal, LowersItsThresholdUntilTheEstimateHolds) {
   for (std::size_t k = 0; k < kTileSamples; ++k) EXPECT_NEAR(found[k], whole[k], 1e-4 * whole[k]);
 }
 
+// What siblings differ by hides the more of what lies below the smaller the error is.
+TEST(Traversal, TrustsItsEstimateLessWhereTheErrorIsSmall) {
+  const auto caution = [](double error) { return room().traversal().criterion(error).caution; };
+  EXPECT_EQ(caution(0.1), 1);
+  EXPECT_EQ(caution(0.05), 1);
+  EXPECT_NEAR(caution(0.0125), 2, 1e-12);
+  EXPECT_EQ(caution(1e-3), caution(1e-4));
+  const TileSamples samples = tile_samples(room().gbuffer, 7);
+  CutCriterion criterion{.floor = room().traversal().criterion(0.1).floor};
+  const double plain = room().traversal().cut(samples, criterion, {}).error;
+  criterion.caution = 3;
+  EXPECT_NEAR(room().traversal().cut(samples, criterion, {}).error, 3 * plain, 1e-9 * plain);
+}
+
 std::vector<std::uint32_t> parents() {
   std::vector<std::uint32_t> out(room().clusters.size());
   for (std::uint32_t node = 0; node < out.size(); ++node)
@@ -329,6 +343,52 @@ TEST(Traversal, DoesNotTrustANodeHiddenByItsHorizon) {
   ASSERT_LT(light.value[0], 0.05F * 0.01F) << "not hidden";
   const CutCriterion criterion{.threshold = 0.01F, .floor = 0.05F, .start_level = 0};
   EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{1, 2, 3, 4}));
+}
+
+// Four mirror-like texels on a ceiling, of which one reflects the source towards a mirror-like floor right
+// where that reflects it to the camera. Seen from the floor, the mean of the four does neither.
+TEST(Traversal, LooksForGlintsThatTheMeanDoesNotShow) {
+  Lights lights;
+  lights.method = "tree";
+  lights.levels = {0, 1, 5};
+  interop::Light node{};
+  node.position = {0.4f, 1, -1};
+  node.normal = node.shading_normal = {0, -1, 0};
+  node.incident = to_float(normalise(Vec3{0, -1, -1}));
+  node.power_specular = {4, 4, 4};
+  node.ndf = interop::NDF_GGX;
+  node.alpha = 0.03f;
+  node.variance = 0.04f;
+  node.children = 1;
+  lights.lights = {node};
+  node.power_specular = {1, 1, 1};
+  node.children = 0;
+  node.variance = 1e-8f;
+  for (const float x : {0.0f, 0.5f, 0.5f, 0.6f}) {
+    node.position.x = x;
+    lights.lights.push_back(node);
+  }
+  GBuffer floor;
+  floor.width = floor.height = 16;
+  floor.camera = {0, 1, 1};
+  interop::Surface s{};
+  s.normal = s.shading_normal = {0, 1, 0};
+  s.specular = {1, 1, 1};
+  s.ndf = interop::NDF_GGX;
+  s.alpha = 0.03f;
+  floor.pixels.assign(256, s);
+  const std::vector<Cluster> clusters = pack_clusters(lights);
+  const TreeTraversal traversal(floor, lights, clusters);
+  const TileSamples samples = tile_samples(floor, 0);
+  const SampleReceivers receivers = sample_receivers(floor, samples);
+  ClusterLight mean, texel;
+  evaluate(clusters[0], receivers, mean);
+  evaluate(clusters[1], receivers, texel);
+  ASSERT_GT(texel.value[0], 100 * mean.value[0]) << "not hidden";
+  const CutCriterion criterion{.threshold = 0.01F, .floor = 5 * texel.value[0], .start_level = 0};
+  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{1, 2, 3, 4}));
+  floor.camera = {0, 1, -1};  // no longer where the floor reflects the ceiling to
+  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{0}));
 }
 
 TEST(Traversal, SkipsNodesWithoutPowerAndTilesWithoutPixels) {

@@ -117,13 +117,24 @@ TEST(HalfResolution, ShadesBentNormalsExactly) {
   EXPECT_GT(report.to_json()["counts"]["diffuse_exact_pixels"], kWidth * kHeight / 2);
 }
 
+// A normal map that bends the normal by up to 0.03.
+TEST(HalfResolution, InterpolatesBendsThatTheErrorAllows) {
+  GBuffer gbuffer = floor_of(flat);
+  test::Uniform uniform;
+  for (interop::Surface& s : gbuffer.pixels)
+    s.shading_normal = test::to_float(normalise(Vec3{0.03 * (2 * uniform() - 1), 0, 1}));
+  const std::vector<std::uint8_t> kinds = pixel_kinds(gbuffer);
+  EXPECT_LT(HalfResolution(gbuffer, kinds, 0.1).exact_pixels(), kWidth * kHeight / 10);
+  EXPECT_GT(HalfResolution(gbuffer, kinds, 0.005).exact_pixels(), kWidth * kHeight / 2);
+}
+
 TEST(HalfResolution, ShadesSinglePixelsOfOtherSurfacesExactly) {
   GBuffer gbuffer = floor_of(flat);
   interop::Surface& wire = gbuffer.pixels[11 * kWidth + 17];  // not a sample
   wire.position.z = 0.3f;
   wire.normal = wire.shading_normal = {1, 0, 0};
   const std::vector<std::uint8_t> kinds = pixel_kinds(gbuffer);
-  const HalfResolution half(gbuffer, kinds);
+  const HalfResolution half(gbuffer, kinds, 0.1);
   EXPECT_TRUE(half.shaded()[11 * kWidth + 17]);
   EXPECT_FALSE(half.shaded()[11 * kWidth + 19]);
 }
