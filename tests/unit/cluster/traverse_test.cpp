@@ -268,89 +268,91 @@ TEST(Traversal, AsksForTheVisibilityOfEachNodeOnce) {
   for (const auto& [node, times] : asked) EXPECT_EQ(times, 1) << node;
 }
 
-// A lamp right above a pixel between the samples, which hardly see it.
-TEST(Traversal, LooksAtPixelsNearAClusterBetweenTheSamples) {
+// A tree of `node` over four texels that share its power.
+Lights four_texels(interop::Light node, const std::array<interop::vec3, 4>& places) {
   Lights lights;
   lights.method = "tree";
   lights.levels = {0, 1, 5};
+  node.children = 1;
+  lights.lights = {node};
+  node.children = 0;
+  node.variance = 1e-8f;
+  node.power_diffuse = to_float(0.25 * to_double(node.power_diffuse));
+  node.power_specular = to_float(0.25 * to_double(node.power_specular));
+  for (const interop::vec3 place : places) {
+    node.position = place;
+    lights.lights.push_back(node);
+  }
+  return lights;
+}
+
+interop::Surface white_floor() {
+  interop::Surface s{};
+  s.normal = s.shading_normal = {0, 1, 0};
+  s.diffuse = {1, 1, 1};
+  s.alpha = 1;
+  return s;
+}
+
+// One tile; all of its pixels are `s`.
+GBuffer tile_of(const interop::Surface& s, Vec3 camera) {
+  GBuffer tile;
+  tile.width = tile.height = 16;
+  tile.camera = camera;
+  tile.pixels.assign(256, s);
+  return tile;
+}
+
+using Nodes = std::vector<std::uint32_t>;
+Nodes cut_of(const GBuffer& tile, const Lights& lights, float floor) {
+  const std::vector<Cluster> clusters = pack_clusters(lights);
+  const CutCriterion criterion{.threshold = 0.01F, .floor = floor, .start_level = 0};
+  return nodes_of(TreeTraversal(tile, lights, clusters).cut(tile_samples(tile, 0), criterion, {}));
+}
+
+// Of a light at the tile's first sample.
+float light_at_first(const GBuffer& tile, const Lights& lights, std::size_t light) {
+  ClusterLight out;
+  evaluate(pack_clusters(lights)[light], sample_receivers(tile, tile_samples(tile, 0)), out);
+  return out.value[0];
+}
+
+// A lamp right above a pixel between the samples, which hardly see it.
+TEST(Traversal, LooksAtPixelsNearAClusterBetweenTheSamples) {
   interop::Light node{};
   node.position = {2, 0.05f, 2};
   node.normal = node.shading_normal = node.incident = {0, -1, 0};
   node.power_diffuse = {4, 4, 4};
   node.variance = 1e-4f;
-  node.children = 1;
-  lights.lights = {node};
-  node.power_diffuse = {1, 1, 1};
-  node.children = 0;
-  node.variance = 1e-8f;
-  for (const float x : {1.985f, 1.995f, 2.005f, 2.015f}) {
-    node.position.x = x;
-    lights.lights.push_back(node);
-  }
-  GBuffer floor;
-  floor.width = floor.height = 16;
-  floor.camera = {0, 1, 0};
-  interop::Surface s{};
-  s.normal = s.shading_normal = {0, 1, 0};
-  s.diffuse = {1, 1, 1};
-  s.alpha = 1;
-  for (int pixel = 0; pixel < 256; ++pixel) {
-    s.position = {static_cast<float>(pixel % 16), 0, static_cast<float>(pixel / 16)};
-    floor.pixels.push_back(s);
-  }
-  const std::vector<Cluster> clusters = pack_clusters(lights);
-  const TreeTraversal traversal(floor, lights, clusters);
-  const TileSamples samples = tile_samples(floor, 0);
-  const CutCriterion criterion{.threshold = 0.01F, .floor = 0.05F, .start_level = 0};
-  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{1, 2, 3, 4}));
+  const Lights lights =
+      four_texels(node, {{{1.985f, 0.05f, 2}, {1.995f, 0.05f, 2}, {2.005f, 0.05f, 2}, {2.015f, 0.05f, 2}}});
+  GBuffer floor = tile_of(white_floor(), {0, 1, 0});
+  for (int pixel = 0; pixel < 256; ++pixel)
+    floor.pixels[static_cast<std::size_t>(pixel)].position = {static_cast<float>(pixel % 16), 0,
+                                                              static_cast<float>(pixel / 16)};
+  EXPECT_EQ(cut_of(floor, lights, 0.05F), (Nodes{1, 2, 3, 4}));
   floor.pixels[2 * 16 + 2].id = interop::NO_INSTANCE;  // the others are a metre away
-  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{0}));
+  EXPECT_EQ(cut_of(floor, lights, 0.05F), Nodes{0});
 }
 
 // A node whose mean lies below the receivers' horizon while half of its texels shine: a wall that reaches
 // from below the floor to above it.
 TEST(Traversal, DoesNotTrustANodeHiddenByItsHorizon) {
-  Lights lights;
-  lights.method = "tree";
-  lights.levels = {0, 1, 5};
   interop::Light node{};
   node.position = {0, -0.01f, -1};
   node.normal = node.shading_normal = node.incident = {0, 0, 1};
   node.power_diffuse = {4, 4, 4};
   node.variance = 1e-4f;
-  node.children = 1;
-  lights.lights = {node};
-  node.power_diffuse = {1, 1, 1};
-  node.children = 0;
-  node.variance = 1e-8f;
-  for (const float height : {-0.03f, -0.02f, -0.01f, 0.02f}) {
-    node.position.y = height;
-    lights.lights.push_back(node);
-  }
-  GBuffer floor;
-  floor.width = floor.height = 16;
-  floor.camera = {0, 1, 0};
-  interop::Surface s{};
-  s.normal = s.shading_normal = {0, 1, 0};
-  s.diffuse = {1, 1, 1};
-  s.alpha = 1;
-  floor.pixels.assign(256, s);
-  const std::vector<Cluster> clusters = pack_clusters(lights);
-  const TreeTraversal traversal(floor, lights, clusters);
-  const TileSamples samples = tile_samples(floor, 0);
-  ClusterLight light;
-  evaluate(clusters[0], sample_receivers(floor, samples), light);
-  ASSERT_LT(light.value[0], 0.05F * 0.01F) << "not hidden";
-  const CutCriterion criterion{.threshold = 0.01F, .floor = 0.05F, .start_level = 0};
-  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{1, 2, 3, 4}));
+  const Lights lights =
+      four_texels(node, {{{0, -0.03f, -1}, {0, -0.02f, -1}, {0, -0.01f, -1}, {0, 0.02f, -1}}});
+  const GBuffer floor = tile_of(white_floor(), {0, 1, 0});
+  ASSERT_LT(light_at_first(floor, lights, 0), 0.05F * 0.01F) << "not hidden";
+  EXPECT_EQ(cut_of(floor, lights, 0.05F), (Nodes{1, 2, 3, 4}));
 }
 
 // Four mirror-like texels on a ceiling, of which one reflects the source towards a mirror-like floor right
 // where that reflects it to the camera. Seen from the floor, the mean of the four does neither.
 TEST(Traversal, LooksForGlintsThatTheMeanDoesNotShow) {
-  Lights lights;
-  lights.method = "tree";
-  lights.levels = {0, 1, 5};
   interop::Light node{};
   node.position = {0.4f, 1, -1};
   node.normal = node.shading_normal = {0, -1, 0};
@@ -359,36 +361,17 @@ TEST(Traversal, LooksForGlintsThatTheMeanDoesNotShow) {
   node.ndf = interop::NDF_GGX;
   node.alpha = 0.03f;
   node.variance = 0.04f;
-  node.children = 1;
-  lights.lights = {node};
-  node.power_specular = {1, 1, 1};
-  node.children = 0;
-  node.variance = 1e-8f;
-  for (const float x : {0.0f, 0.5f, 0.5f, 0.6f}) {
-    node.position.x = x;
-    lights.lights.push_back(node);
-  }
-  GBuffer floor;
-  floor.width = floor.height = 16;
-  floor.camera = {0, 1, 1};
-  interop::Surface s{};
-  s.normal = s.shading_normal = {0, 1, 0};
-  s.specular = {1, 1, 1};
-  s.ndf = interop::NDF_GGX;
-  s.alpha = 0.03f;
-  floor.pixels.assign(256, s);
-  const std::vector<Cluster> clusters = pack_clusters(lights);
-  const TreeTraversal traversal(floor, lights, clusters);
-  const TileSamples samples = tile_samples(floor, 0);
-  const SampleReceivers receivers = sample_receivers(floor, samples);
-  ClusterLight mean, texel;
-  evaluate(clusters[0], receivers, mean);
-  evaluate(clusters[1], receivers, texel);
-  ASSERT_GT(texel.value[0], 100 * mean.value[0]) << "not hidden";
-  const CutCriterion criterion{.threshold = 0.01F, .floor = 5 * texel.value[0], .start_level = 0};
-  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{1, 2, 3, 4}));
-  floor.camera = {0, 1, -1};  // no longer where the floor reflects the ceiling to
-  EXPECT_EQ(nodes_of(traversal.cut(samples, criterion, {})), (std::vector<std::uint32_t>{0}));
+  const Lights lights = four_texels(node, {{{0, 1, -1}, {0.5f, 1, -1}, {0.5f, 1, -1}, {0.6f, 1, -1}}});
+  interop::Surface mirror = white_floor();
+  std::swap(mirror.diffuse, mirror.specular);
+  mirror.ndf = interop::NDF_GGX;
+  mirror.alpha = 0.03f;
+  const GBuffer floor = tile_of(mirror, {0, 1, 1});
+  const float texel = light_at_first(floor, lights, 1);
+  ASSERT_GT(texel, 100 * light_at_first(floor, lights, 0)) << "not hidden";
+  EXPECT_EQ(cut_of(floor, lights, 5 * texel), (Nodes{1, 2, 3, 4}));
+  // No longer where the floor reflects the ceiling to.
+  EXPECT_EQ(cut_of(tile_of(mirror, {0, 1, -1}), lights, 5 * texel), Nodes{0});
 }
 
 TEST(Traversal, SkipsNodesWithoutPowerAndTilesWithoutPixels) {
