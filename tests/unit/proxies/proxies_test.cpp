@@ -6,8 +6,10 @@
 #include <omp.h>
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
 
@@ -25,6 +27,7 @@ namespace {
 using namespace proxies;
 using test::expect_error;
 using test::TemporaryFolder;
+using Json = nlohmann::ordered_json;
 
 constexpr double pi = std::numbers::pi;
 
@@ -290,7 +293,30 @@ TEST_F(ProxyFit, ReadsWhatItWrites) {
       EXPECT_EQ(read.objects[i].spheres[k].albedo, made.objects[i].spheres[k].albedo);
     }
   }
-  EXPECT_EQ(proxies_glb(made).substr(0, 4), "glTF");
+}
+
+// A node for each sphere: a unit ball, made as large as it and put where it is.
+TEST_F(ProxyFit, ShowsSpheresAsGltf) {
+  const Proxies made = fit(sequence("sky"), 0, {.count = 3});
+  const std::string glb = proxies_glb(made);
+  ASSERT_EQ(glb.substr(0, 4), "glTF");
+  std::uint32_t size = 0;
+  std::memcpy(&size, &glb[12], sizeof size);
+  const Json model = Json::parse(glb.substr(20, size));
+  std::vector<Json> shown;
+  for (const Json& node : model["nodes"])
+    if (node.contains("mesh")) shown.push_back(node);
+  const std::vector<ProxySphere> spheres = made.spheres();
+  ASSERT_EQ(shown.size(), spheres.size());
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const auto matrix = shown[i]["matrix"].get<std::vector<double>>();
+    for (const int diagonal : {0, 5, 10}) EXPECT_EQ(matrix[diagonal], spheres[i].radius);
+    EXPECT_EQ((Vec3{matrix[12], matrix[13], matrix[14]}), spheres[i].center);
+    const Json& mesh = model["meshes"][shown[i]["mesh"].get<std::size_t>()];
+    const Json& material = model["materials"][mesh["primitives"][0]["material"].get<std::size_t>()];
+    const auto colour = material["pbrMetallicRoughness"]["baseColorFactor"].get<std::vector<double>>();
+    EXPECT_LE(length(Vec3{colour[0], colour[1], colour[2]} - spheres[i].albedo), 1e-6);
+  }
 }
 
 TEST_F(ProxyFit, BadParametersAreErrors) {

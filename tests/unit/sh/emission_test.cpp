@@ -102,6 +102,31 @@ TEST(Emission, MatrixHoldsTheMean) {
   }
 }
 
+// All couplings, from directions within the cone all about its axis, and the sphere's normals where they meet
+// it.
+TEST(Emission, MatrixIsThatOverRays) {
+  const double sine = 0.6, cosine = 0.8;
+  double sums[9][9] = {};
+  const int count = 4000, azimuths = 12;
+  for (int i = 0; i < count; ++i)
+    for (int a = 0; a < azimuths; ++a) {
+      const double z = 1 - (1 - cosine) * (i + 0.5) / count, r = std::sqrt(1 - z * z),
+                   azimuth = 2 * pi * a / azimuths;
+      const Vec3 direction{r * std::cos(azimuth), r * std::sin(azimuth), z};
+      const Vec3 hit = (z - std::sqrt(z * z - cosine * cosine)) * direction;
+      const Vector to = basis(direction), from = basis((hit - Vec3{0, 0, 1}) / sine);
+      for (int j = 0; j < 9; ++j)
+        for (int k = 0; k < 9; ++k) sums[j][k] += 2 * pi * (1 - cosine) / count / azimuths * to[j] * from[k];
+    }
+  const EmissionMatrix matrix = emission_matrix(sine);
+  for (int j = 0; j < kEmissionOrder; ++j)
+    for (int k = 0; k < kEmissionOrder; ++k)
+      for (int m = -j; m <= j; ++m)
+        for (int n = -k; n <= k; ++n)
+          EXPECT_NEAR(sums[index(j, m)][index(k, n)], m == n ? matrix.at(j, k, m) : 0, 1e-6)
+              << j << ", " << m << "; " << k << ", " << n;
+}
+
 // An even irradiance gives an even disk.
 TEST(Emission, MatrixOfAConstantIsTheCap) {
   for (const double sine : {0.1, 0.8}) {

@@ -65,6 +65,19 @@ TEST(Exponential, OfAConstantIsExact) {
     EXPECT_LE(norm(minus(exponential(f), expected)), 1e-12);
 }
 
+// Twice the vector, eight times the error: 1 + x + x*x/2 is exact to the second order.
+TEST(Exponential, SecondOrderErrsInTheThird) {
+  const Vector f = turn(log_occlusion(below_of_degrees(12)), normalise({1, 2, -1}));
+  const auto error = [&](double factor) {
+    Vector x = f;
+    for (double& value : x) value *= factor / norm(f);
+    x[0] = 0;
+    return norm(minus(exp_second_order(x), exp_exact(x)));
+  };
+  EXPECT_NEAR(error(0.02) / error(0.01), 8, 0.1);
+  EXPECT_NEAR(error(0.2) / error(0.1), 8, 0.5);
+}
+
 TEST(Exponential, Squarings) {
   EXPECT_EQ(squarings(0, 1), 0);
   EXPECT_EQ(squarings(1, 1), 0);

@@ -53,9 +53,12 @@ scene::Environment sky_of(Radiance radiance, int height = 32) {
 inline scene::Environment even_sky() {
   return sky_of([](Vec3) { return Vec3{1, 1, 1}; });
 }
-// Bluish from above, reddish from one side, all smooth.
+// Bluish from above, reddish from one side, all smooth, with parts of all the basis' functions of order 3.
 inline scene::Environment coloured_sky() {
-  return sky_of([](Vec3 d) { return Vec3{1 + d.x, 1 + 0.5 * d.y * d.z, 1.2 + d.y + 0.4 * d.x * d.x}; });
+  return sky_of([](Vec3 d) {
+    return Vec3{1 + 0.9 * d.x + 0.1 * d.z, 1 + 0.5 * d.y * d.z - 0.4 * d.x * d.z,
+                1.2 + d.y + 0.4 * d.x * d.x + 0.4 * d.x * d.y};
+  });
 }
 
 inline Proxies proxies_of(std::vector<ProxySphere> spheres) {

@@ -93,6 +93,10 @@ TEST(SoftGi, OneSphereHidesItsFormFactor) {
       EXPECT_NEAR(image.direct[0].x, 1 - sine * sine * direction.y, 0.02) << tilt << ", " << degrees;
       // It sends back what it hides, but for the light that it gets from below.
       EXPECT_NEAR(image.diffuse[0].x, sine * sine * direction.y, 0.03) << tilt << ", " << degrees;
+      // No overlaps: nothing to normalise.
+      const Indirect published =
+          shade(gbuffer, proxies_of({sphere_at(direction, degrees)}), even_sky(), as_published());
+      EXPECT_NEAR(published.diffuse[0].x / image.diffuse[0].x, 1, 0.01) << tilt << ", " << degrees;
     }
 }
 
@@ -300,6 +304,30 @@ TEST(SoftGi, FewerReceiversDoOnSmoothGround) {
   for (std::size_t i = 0; i < points.size(); ++i)
     worst = std::max(worst, length(widen(image.direct[i]) - widen(full.direct[i])));
   EXPECT_GT(worst, 0.2);
+}
+
+// Columns by turns on the floor and on a shelf above the proxy: normals are the same, light is not.
+TEST(SoftGi, HeightsAreToldApart) {
+  std::vector<Point> points = floor_points(32);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (i % 32 / 8 % 2 == 1) points[i].position.y = 2;
+  GBuffer gbuffer = gbuffer_of(points, 32);
+  gbuffer.camera = {0, 10, 0};
+  const Proxies proxies = proxies_of({{{0, 1, 0}, 0.8, {1, 1, 1}}});
+  const auto mean_error = [&](const char* upsample) {
+    SoftGiParams params = everywhere();
+    const Indirect full = shade(gbuffer, proxies, coloured_sky(), params);
+    params.rate = 4;
+    params.upsample = upsample;
+    const Indirect image = shade(gbuffer, proxies, coloured_sky(), params);
+    double sum = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      sum += length(widen(image.direct[i]) - widen(full.direct[i]));
+    return sum / static_cast<double>(points.size());
+  };
+  const double blind = mean_error("bilinear");
+  EXPECT_LT(mean_error("plane"), 0.4 * blind);
+  EXPECT_LT(mean_error("bilateral"), 0.4 * blind);
 }
 
 TEST(SoftGi, AnyNumberOfThreadsGivesTheSameBytes) {
