@@ -54,6 +54,7 @@ Cluster pack(const Light& light, std::uint32_t index, double variance_floor) {
   if (!has_power(light.power_diffuse) && !has_power(light.power_specular)) return c;
   c.position = light.position;
   c.inverse_variance = static_cast<float>(1 / std::max(static_cast<double>(light.variance), variance_floor));
+  c.reach = 2 / std::sqrt(c.inverse_variance);
   c.normal = light.normal;
   c.normal_sharpness = static_cast<float>(normal_sharpness(light));
   c.diffuse = to_float(std::numbers::inv_pi * to_double(light.power_diffuse));
@@ -64,6 +65,28 @@ Cluster pack(const Light& light, std::uint32_t index, double variance_floor) {
   return c;
 }
 
+double distance(interop::vec3 a, interop::vec3 b) {
+  return length(to_double(a) - to_double(b));
+}
+
+// Of nodes that hold texels further than four deviations away: as far as these. Children follow their
+// parents.
+void reach_outliers(std::vector<Cluster>& clusters) {
+  constexpr float kOutlier = 4;
+  std::vector<double> furthest(clusters.size());
+  for (std::size_t i = clusters.size(); i-- > 0;) {
+    Cluster& c = clusters[i];
+    furthest[i] = static_cast<double>(c.reach);
+    if (c.children == 0 || c.inverse_variance <= 0) continue;
+    furthest[i] = 0;
+    for (std::size_t k = c.children; k < c.children + 4; ++k)
+      if (clusters[k].inverse_variance > 0)
+        furthest[i] = std::max(furthest[i], distance(clusters[k].position, c.position) + furthest[k]);
+    const auto reach = static_cast<float>(furthest[i]);
+    if (reach * reach * c.inverse_variance > kOutlier * kOutlier) c.reach = reach;
+  }
+}
+
 }  // namespace
 
 std::vector<Cluster> pack_clusters(const Lights& lights) {
@@ -72,6 +95,7 @@ std::vector<Cluster> pack_clusters(const Lights& lights) {
 #pragma omp parallel for
   for (std::size_t i = 0; i < clusters.size(); ++i)
     clusters[i] = pack(lights.lights[i], static_cast<std::uint32_t>(i), floor);
+  if (lights.is_tree()) reach_outliers(clusters);
   return clusters;
 }
 

@@ -180,8 +180,7 @@ struct Light {
 };
 
 template <Form F, Emission E, Reflection R>
-VSGL_LANE Light light_at(const Cluster& c, const Lobe& normals, float normal_spread, float deviation,
-                         const Receiver& r) {
+VSGL_LANE Light light_at(const Cluster& c, const Lobe& normals, float normal_spread, const Receiver& r) {
   const V3 v = v3(c.position) - r.position;
   const float d2 = most(dot(v, v), 1e-24f), inverse_d = 1 / std::sqrt(d2), inverse_d2 = inverse_d * inverse_d;
   const V3 u = inverse_d * v;
@@ -220,7 +219,7 @@ VSGL_LANE Light light_at(const Cluster& c, const Lobe& normals, float normal_spr
   if constexpr (E != Emission::none && R != Reflection::diffuse)
     out.value += emitted_specular * dot(r.specular, v3(c.specular)) * receive_specular;
 
-  const float turn = least(2 * deviation * inverse_d, 1);
+  const float turn = least(c.reach * inverse_d, 1);
   out.bound = shade * clamp(leaving + turn + normal_spread, 0, 1) * clamp(arriving + turn, 0, 1) *
               least(inverse_d2, c.inverse_variance);
   return out;
@@ -232,10 +231,9 @@ VSGL_LANE void evaluate_all(const Cluster& cluster, const SampleReceivers& r, Cl
   const bool flat = c.normal_sharpness > interop::CLUSTER_FLAT;
   const Lobe normals = lobe_of(flat ? 1.0f : c.normal_sharpness);
   const float normal_spread = flat ? 0.0f : 2 / std::sqrt(normals.sharpness);
-  const float deviation = 1 / std::sqrt(c.inverse_variance);
 #pragma GCC ivdep
   for (std::size_t i = 0; i < kTileSamples; ++i) {
-    const Light light = light_at<F, E, R>(c, normals, normal_spread, deviation, at(r, i));
+    const Light light = light_at<F, E, R>(c, normals, normal_spread, at(r, i));
     out.value.lane[i] = light.value;
     out.bound.lane[i] = light.bound;
   }
@@ -280,13 +278,12 @@ VSGL_LANE float covered_share(float alpha2, float hh, float sharpness) {
   return least(alpha2 * std::sqrt(hh) * sharpness, 1);
 }
 
-VSGL_LANE float glint_at(const Cluster& c, float deviation, float reach, float least_share,
-                         const Receiver& r) {
+VSGL_LANE float glint_at(const Cluster& c, float reach, float least_share, const Receiver& r) {
   const V3 v = v3(c.position) - r.position;
   const float d2 = most(dot(v, v), 1e-24f), inverse_d = 1 / std::sqrt(d2),
               sharpness = d2 * c.inverse_variance;
   const V3 u = inverse_d * v, n = v3(c.shading_normal);
-  const float turn = least((2 * deviation + reach) * inverse_d, 1), alpha2 = c.masking_alpha2;
+  const float turn = least((c.reach + reach) * inverse_d, 1), alpha2 = c.masking_alpha2;
 
   const V3 h = v3(c.incident) - u;
   const float hh = most(dot(h, h), 1e-8f), hn = dot(h, n);
@@ -316,11 +313,10 @@ VSGL_VECTOR_CLONES
 void evaluate_glint(const Cluster& cluster, const SampleReceivers& receivers, const Lanes& reach,
                     float least_share, Lanes& light) {
   const Cluster c = cluster;
-  const float deviation = 1 / std::sqrt(c.inverse_variance);
   const float scale = c.ndf == interop::NDF_GGX ? 1 : 1 / kPi;  // c.specular of GGX is over pi
 #pragma GCC ivdep
   for (std::size_t i = 0; i < kTileSamples; ++i)
-    light.lane[i] = scale * glint_at(c, deviation, reach.lane[i], least_share, at(receivers, i));
+    light.lane[i] = scale * glint_at(c, reach.lane[i], least_share, at(receivers, i));
 }
 
 VSGL_VECTOR_CLONES

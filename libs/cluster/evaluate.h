@@ -35,14 +35,14 @@ SampleReceivers sample_receivers(const GBuffer& gbuffer, const TileSamples& samp
 
 struct ClusterLight {
   Lanes value;  // luminance of the radiance towards the camera, W/(m^2 sr)
-  Lanes bound;  // of the diffuse part, if it stood at the best place and angle within two standard deviations
+  Lanes bound;  // of the diffuse part, if it stood at the best place and angle within its reach
 };
 void evaluate(const interop::Cluster& cluster, const SampleReceivers& receivers, ClusterLight& light);
 
 // The most light, about, that a specular cluster may send to within `reach` (m) of each sample: as luminance,
 // W/(m^2 sr). Its mean does not tell, where narrow lobes of emission and reflection meet on some of its
 // texels alone. Both lobes are taken as if they had their peaks as near as directions to the cluster turn
-// within two standard deviations, and by the share of the cluster that they can cover, which is at least
+// within its reach, and by the share of the cluster that they can cover, which is at least
 // `least_share`. All surfaces count as GGX. The cluster emits specular light.
 void evaluate_glint(const interop::Cluster& cluster, const SampleReceivers& receivers, const Lanes& reach,
                     float least_share, Lanes& light);

@@ -177,11 +177,10 @@ class Choice {
   // The largest share that the cluster may have in the light of a cell's sample on one of the cell's pixels:
   // of those cells some pixels of which are nearer to it than they are to their sample.
   float brightest_near(const Cluster& cluster) {
-    const float deviation = 1 / std::sqrt(cluster.inverse_variance);
     float most = 0;
     for (const Cell& cell : cells_) {
       const float x = cluster.position.x - cell.centre.x, y = cluster.position.y - cell.centre.y,
-                  z = cluster.position.z - cell.centre.z, reach = cell.radius + 2 * deviation;
+                  z = cluster.position.z - cell.centre.z, reach = cell.radius + cluster.reach;
       if (x * x + y * y + z * z > reach * reach) continue;
       ClusterLight light;
       evaluate(cluster, cell.receivers, light);

@@ -26,7 +26,7 @@ struct Cluster {
   uint ndf;              // NDF_* of the specular emission, NDF_NONE: none
   uint children;         // index of the first of four, 0: a leaf
   uint light;            // row of lights.exr
-  uint padding;
+  float reach;  // from the mean to where texels may be, m: two sigma, or further for nodes with outliers
 };
 VSGL_CHECK_SIZE(Cluster, 112)
 

@@ -350,6 +350,23 @@ TEST(Traversal, DoesNotTrustANodeHiddenByItsHorizon) {
   EXPECT_EQ(cut_of(floor, lights, 0.05F), (Nodes{1, 2, 3, 4}));
 }
 
+// The mean lies far below the horizon, and so do all texels but one, ten deviations away.
+TEST(Traversal, ReachesTexelsFarFromTheirNode) {
+  interop::Light node{};
+  node.position = {0, -0.03f, -1};
+  node.normal = node.shading_normal = node.incident = {0, 0, 1};
+  node.power_diffuse = {4, 4, 4};
+  node.variance = 1e-4f;
+  const auto cut_with = [&](float height) {
+    const Lights lights =
+        four_texels(node, {{{0, -0.04f, -1}, {0, -0.04f, -1}, {0, -0.04f, -1}, {0, height, -1}}});
+    EXPECT_NEAR(pack_clusters(lights)[0].reach, height > 0 ? height + 0.03F : 0.02F, 1e-3F);
+    return cut_of(tile_of(white_floor(), {0, 1, 0}), lights, 0.05F);
+  };
+  EXPECT_EQ(cut_with(0.07F), (Nodes{1, 2, 3, 4}));
+  EXPECT_EQ(cut_with(-0.04F), Nodes{0});
+}
+
 // Four mirror-like texels on a ceiling, of which one reflects the source towards a mirror-like floor right
 // where that reflects it to the camera. Seen from the floor, the mean of the four does neither.
 TEST(Traversal, LooksForGlintsThatTheMeanDoesNotShow) {
