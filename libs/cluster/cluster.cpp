@@ -72,7 +72,7 @@ double distance(interop::vec3 a, interop::vec3 b) {
 // Of nodes that hold texels further than four deviations away: as far as these. Children follow their
 // parents.
 void reach_outliers(std::vector<Cluster>& clusters) {
-  constexpr float kOutlier = 4;
+  constexpr float kOutlier = 6;
   std::vector<double> furthest(clusters.size());
   for (std::size_t i = clusters.size(); i-- > 0;) {
     Cluster& c = clusters[i];

@@ -24,7 +24,7 @@ constexpr double kFirstThreshold = 0.15;
 constexpr float kStep = 0.7F;
 // The estimate counts what the nodes err together, and each by itself, so many times: measured, see
 // docs/cut.md.
-constexpr double kBias = 4, kNoise = 1.4;
+constexpr double kBias = 3.7, kNoise = 1.4;
 // Pixels between the samples may receive so many eps from a cluster that they are near to.
 constexpr float kNearShare = 8;
 // Lobes of at most this roughness make glints; they are looked for within this part of a cell's radius.
