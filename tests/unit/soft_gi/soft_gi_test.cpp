@@ -222,6 +222,38 @@ TEST(SoftGi, ExposedPartsMakeUpTheCluster) {
   EXPECT_EQ(within[2].back(), 1);
 }
 
+// Two spheres, a diameter apart, are neighbours for receivers from 2 / 0.35 radii on: of entries for 1, 2, 4,
+// 8 and 16 radii, the last two. Each then hides of the other what it covers of the other half of the
+// directions.
+TEST(SoftGi, NeighboursAreNearerThanAShareOfTheDistance) {
+  const double diameter = 2, radius = 1;
+  const std::vector<ProxySphere> pair{{{0, 0, 0}, radius, {}}, {{0, diameter, 0}, radius, {}}};
+  // Area that two unit disks share whose centres are 2 sin(theta) apart, over pi; mean over all directions.
+  double shared = 0;
+  constexpr int kSteps = 1000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double cosine = (i + 0.5) / kSteps, half = std::sqrt(1 - cosine * cosine);
+    shared += 2 * (std::acos(half) - half * std::sqrt(1 - half * half)) / pi / kSteps;
+  }
+  for (const soft_gi::Exposure& exposure : soft_gi::exposures(pair)) {
+    for (std::size_t level = 0; level < 3; ++level) EXPECT_EQ(exposure[level], 1) << level;
+    for (std::size_t level = 3; level < interop::PROXY_EXPOSURES; ++level)
+      EXPECT_NEAR(exposure[level], 1 - 0.5 * shared, 0.01) << level;
+  }
+}
+
+// The product with a clamped cosine of order 4 is negative beyond the horizon of a small sun.
+TEST(SoftGi, LightIsNeverNegative) {
+  const scene::Environment sun = sky_of([](Vec3 d) { return d.y > 0.95 ? Vec3{50, 50, 50} : Vec3{}; });
+  const Vec3 averted{std::sin(125 * pi / 180), std::cos(125 * pi / 180), 0};
+  Report report;
+  const Indirect image = shade_soft_gi(gbuffer_of({{{}, kUp}, {{}, averted}}), Proxies{}, sun, everywhere(),
+                                       device(), report, nullptr);
+  EXPECT_GT(image.direct[0].x, 0.5);
+  EXPECT_EQ(widen(image.direct[1]), Vec3{});
+  EXPECT_EQ(report.to_json()["counts"]["clamped_values"], 1);
+}
+
 TEST(SoftGi, BlackProxiesSendNothing) {
   auto spheres = random_spheres(10, 0.4);
   for (ProxySphere& sphere : spheres) sphere.albedo = {};
