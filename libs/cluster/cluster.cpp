@@ -69,10 +69,10 @@ double distance(interop::vec3 a, interop::vec3 b) {
   return length(to_double(a) - to_double(b));
 }
 
-// Of nodes that hold texels further than four deviations away: as far as these. Children follow their
+// Lets nodes with texels further than kOutlier deviations from their mean reach these. Children follow their
 // parents.
+constexpr float kOutlier = 6;
 void reach_outliers(std::vector<Cluster>& clusters) {
-  constexpr float kOutlier = 6;
   std::vector<double> furthest(clusters.size());
   for (std::size_t i = clusters.size(); i-- > 0;) {
     Cluster& c = clusters[i];
