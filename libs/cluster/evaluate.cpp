@@ -266,8 +266,9 @@ VSGL_LANE bool is_point(const Cluster& c, const SampleReceivers& r) {
 
 // ---- Glints
 
-// GGX's density times pi, in its largest peak's place by no more than `turn`: h, the sum of the directions to
-// both sides (squared length hh, normal component hn, tangential one t), moves by as much as either does.
+// GGX's density, times pi, at the slope nearest to its peak that a turn of either direction by `turn`
+// reaches. h is the sum of the directions to both sides (squared length hh, normal component hn, tangential
+// one t): it moves by as much as either of them does.
 VSGL_LANE float turned_density(float alpha2, float hh, float hn, float t, float turn) {
   const float near = most(t - turn, 0), q = most(near * near + alpha2 * hn * hn, alpha2 * hh);
   return alpha2 * hh * hh / (q * q);

@@ -154,18 +154,19 @@ INSTANTIATE_TEST_SUITE_P(Ndfs, Evaluation, testing::ValuesIn(cases()), [](const 
 
 constexpr int kPatchTexels = 64;
 
-// 8 x 8 texels of a patch of `size` in the light's plane, with its power in all; the first is in the corner.
-std::vector<interop::Light> texels_of(const interop::Light& light, double size) {
+// 8 x 8 texels of a patch of `size` in the light's plane, the first in the corner: where they lie,
+interop::vec3 texel_at(const interop::Light& light, double size, int i) {
   const Vec3 n = to_double(light.normal), s = normalise(cross(n, {0, 0, 1})), t = cross(n, s);
-  std::vector<interop::Light> out;
-  for (int i = 0; i < kPatchTexels; ++i) {
-    interop::Light texel = light;
-    const double x = (i % 8 - 3.5) / 8, y = (i / 8 - 3.5) / 8;
-    texel.position = to_float(to_double(light.position) + size * (x * s + y * t));
-    texel.variance = static_cast<float>(size * size / (12 * kPatchTexels));
-    texel.power_specular = to_float(to_double(light.power_specular) / kPatchTexels);
-    out.push_back(texel);
-  }
+  const double x = (i % 8 - 3.5) / 8, y = (i / 8 - 3.5) / 8;
+  return to_float(to_double(light.position) + size * (x * s + y * t));
+}
+// and all of them, with the light's power.
+std::vector<interop::Light> texels_of(const interop::Light& light, double size) {
+  interop::Light texel = light;
+  texel.variance = static_cast<float>(size * size / (12 * kPatchTexels));
+  texel.power_specular = to_float(to_double(light.power_specular) / kPatchTexels);
+  std::vector<interop::Light> out(kPatchTexels, texel);
+  for (int i = 0; i < kPatchTexels; ++i) out[static_cast<std::size_t>(i)].position = texel_at(light, size, i);
   return out;
 }
 
@@ -196,7 +197,7 @@ TEST(Glint, TellsOfWhatTheMeanHides) {
     interop::Light light = mirror_patch(size);
     GBuffer& floor = floors.emplace_back(random_floor(interop::NDF_GGX));
     for (interop::Surface& s : floor.pixels) s.alpha = 0.03f;
-    let_shine(light, floor.pixels.front(), floor.camera, to_double(texels_of(light, size).front().position));
+    let_shine(light, floor.pixels.front(), floor.camera, to_double(texel_at(light, size, 0)));
     lights.lights.push_back(light);
     std::ranges::copy(texels_of(light, size), std::back_inserter(lights.lights));
   }

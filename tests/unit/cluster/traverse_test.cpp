@@ -335,14 +335,20 @@ TEST(Traversal, LooksAtPixelsNearAClusterBetweenTheSamples) {
   EXPECT_EQ(cut_of(floor, lights, 0.05F), Nodes{0});
 }
 
-// A node whose mean lies below the receivers' horizon while half of its texels shine: a wall that reaches
-// from below the floor to above it.
-TEST(Traversal, DoesNotTrustANodeHiddenByItsHorizon) {
+// One centimetre large, a metre away from the floor's pixels, which it faces, at that height.
+interop::Light part_of_wall(float height) {
   interop::Light node{};
-  node.position = {0, -0.01f, -1};
+  node.position = {0, height, -1};
   node.normal = node.shading_normal = node.incident = {0, 0, 1};
   node.power_diffuse = {4, 4, 4};
   node.variance = 1e-4f;
+  return node;
+}
+
+// A node whose mean lies below the receivers' horizon while half of its texels shine: a wall that reaches
+// from below the floor to above it.
+TEST(Traversal, DoesNotTrustANodeHiddenByItsHorizon) {
+  const interop::Light node = part_of_wall(-0.01f);
   const Lights lights =
       four_texels(node, {{{0, -0.03f, -1}, {0, -0.02f, -1}, {0, -0.01f, -1}, {0, 0.02f, -1}}});
   const GBuffer floor = tile_of(white_floor(), {0, 1, 0});
@@ -352,11 +358,7 @@ TEST(Traversal, DoesNotTrustANodeHiddenByItsHorizon) {
 
 // The mean lies far below the horizon, and so do all texels but one, ten deviations away.
 TEST(Traversal, ReachesTexelsFarFromTheirNode) {
-  interop::Light node{};
-  node.position = {0, -0.03f, -1};
-  node.normal = node.shading_normal = node.incident = {0, 0, 1};
-  node.power_diffuse = {4, 4, 4};
-  node.variance = 1e-4f;
+  const interop::Light node = part_of_wall(-0.03f);
   const auto cut_with = [&](float height) {
     const Lights lights =
         four_texels(node, {{{0, -0.04f, -1}, {0, -0.04f, -1}, {0, -0.04f, -1}, {0, height, -1}}});

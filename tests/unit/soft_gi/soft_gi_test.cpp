@@ -13,6 +13,7 @@
 #include "scene/transform.h"
 #include "sh/basis.h"
 #include "soft_gi_scene.h"
+#include "stages/soft_gi/directions.h"
 #include "stages/soft_gi/exposure.h"
 
 namespace vsgl {
@@ -123,10 +124,7 @@ TEST(SoftGi, CoincidentSpheresShareTheirLight) {
 // Normals all about, at one place.
 std::vector<Point> normals_at(Vec3 position, int count) {
   std::vector<Point> out;
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z);
-    out.push_back({position, {r * std::cos(2.4 * i), r * std::sin(2.4 * i), z}});
-  }
+  for (const Vec3 normal : soft_gi::directions(count)) out.push_back({position, normal});
   return out;
 }
 
